@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "cairn/features/features.h"
+
+namespace cairn {
+
+struct OrbOptions {
+  int count = 1000;          ///< keypoints a picture, about
+  int levels = 8;            ///< pyramid levels
+  double scale = 1.2;        ///< size ratio between levels
+  int threshold = 20;        ///< FAST: grey-level difference of a good corner
+  int weak_threshold = 7;    ///< FAST: accepted where a region has no good corner
+};
+
+/// Extracts ORB features (Rublee et al. 2011): FAST corners over an image pyramid, spread over the
+/// picture, oriented by the intensity centroid, described by rotated BRIEF. The result depends on
+/// the picture and the options alone, not on the number of threads. Not for concurrent use: buffers
+/// are kept between calls.
+class OrbExtractor {
+ public:
+  explicit OrbExtractor(const OrbOptions& options);
+  ~OrbExtractor();
+
+  /// `grey`: CV_8UC1, at least 64x64. `features` is overwritten, its memory reused.
+  void extract(const cv::Mat& grey, Features& features);
+
+  const OrbOptions& options() const { return options_; }
+
+ private:
+  struct Buffers;
+  OrbOptions options_;
+  std::unique_ptr<Buffers> buffers_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,77 @@
+#pragma once
+
+// The system room: the facade, the options, and the two schedules. It wires the stages together and
+// owns their threads; it knows no files and no command line.
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/geometry/camera.h"
+#include "cairn/geometry/trajectory.h"
+#include "cairn/map/frame_record.h"
+#include "cairn/system/options.h"
+
+namespace cairn {
+
+/// What the facade says of one frame.
+struct FrameResult {
+  struct Feature {
+    float x = 0, y = 0;   ///< pixels of the given picture
+    bool mapped = false;  ///< an inlier that belongs to a map point
+  };
+  FrameRecord record;
+  std::optional<SE3> T_wc;        ///< live pose, camera to world, where the frame was tracked
+  std::vector<Feature> features;  ///< what was seen, for overlays
+};
+
+/// The map and what led to it, for people: see the members.
+struct SlamResult {
+  struct Point {
+    Eigen::Vector3d position;           ///< world frame = first keyframe
+    Eigen::Matrix<unsigned char, 3, 1> colour;  ///< RGB
+    int observations = 0;               ///< keyframes that see it
+  };
+  struct Gap {
+    double lost = 0;       ///< seconds: the first lost frame
+    double recovered = 0;  ///< seconds; NaN if never
+  };
+  Trajectory trajectory;       ///< every tracked frame, carried by its keyframe into the final map
+  Trajectory trajectory_live;  ///< the same, as known at the moment of tracking
+  Trajectory keyframes;
+  std::vector<Point> points;
+  std::vector<Gap> gaps;       ///< losses and recoveries
+  int restarts = 0;            ///< maps given up within their first seconds
+  std::string refusal;         ///< why no map was initialised, empty if one was
+};
+
+/// Pictures of one moving camera in, trajectory and map out.
+///
+///     Slam slam(camera, options);
+///     for (...) slam.process(picture, timestamp);
+///     SlamResult result = slam.finish();
+class Slam {
+ public:
+  Slam(const Camera& camera, const Options& options);
+  ~Slam();
+
+  /// `picture`: CV_8UC1 or CV_8UC3 (BGR), of the camera's size; timestamps in seconds, rising.
+  FrameResult process(const cv::Mat& picture, double timestamp);
+  /// Realtime: a frame that came too late to be processed; it is counted.
+  void drop(double timestamp);
+  /// A frame that cannot be used (broken picture, wrong size, time going back); it is counted.
+  void skip(double timestamp);
+  /// Waits for the mapper, runs the full adjustment, and hands out everything.
+  SlamResult finish();
+
+  /// Rows of frames.csv so far.
+  const std::vector<FrameRecord>& frames() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace cairn
