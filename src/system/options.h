@@ -3,6 +3,9 @@
 #include <cstdint>
 
 #include "cairn/features/orb_extractor.h"
+#include "cairn/mapping/mapper.h"
+#include "cairn/tracking/initializer.h"
+#include "cairn/tracking/tracker.h"
 
 namespace cairn {
 
@@ -11,9 +14,12 @@ enum class Pace { kLockstep, kRealtime };
 /// Every setting of the system. Keys, units and ranges as users see them: option_table.h.
 struct Options {
   Pace pace = Pace::kRealtime;
-  int threads = 0;         ///< 0: all cores
+  int threads = 0;  ///< 0: all cores
   std::uint64_t seed = 0;
   OrbOptions features;
+  InitializerOptions initialization;
+  TrackingOptions tracking;
+  MappingOptions mapping;
 };
 
 }  // namespace cairn

@@ -1,0 +1,97 @@
+#include "cairn/map/frame.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kTableStep = 4;            // pixels; bilinear between them errs by about 0.001 px
+constexpr double kMinRayZ = 0.25;        // rays beyond 75° have no useful pinhole pixel
+constexpr double kMaxBoundFactor = 3.0;  // the undistorted picture at most so many times larger
+
+bool pinhole_pixel(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Vector2d& result) {
+  const Eigen::Vector3d ray = camera.unproject(pixel);
+  if (!ray.allFinite() || ray.z() < kMinRayZ) return false;
+  // Polynomial lenses fold over outside of their calibrated range: accept what maps back.
+  if ((camera.project(ray) - pixel).squaredNorm() > 0.01) return false;
+  result = camera.pinhole().project(ray);
+  return true;
+}
+
+}  // namespace
+
+View::View(const Camera& camera, int levels, double scale) : pinhole_(camera.pinhole()) {
+  const double w = camera.width() - 1, h = camera.height() - 1;
+  min_x_ = w;
+  min_y_ = h;
+  constexpr int kSteps = 32;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double a = double(i) / kSteps;
+    for (const Eigen::Vector2d& border :
+         {Eigen::Vector2d(a * w, 0), Eigen::Vector2d(a * w, h), Eigen::Vector2d(0, a * h),
+          Eigen::Vector2d(w, a * h)}) {
+      Eigen::Vector2d p;
+      if (!pinhole_pixel(camera, border, p)) continue;
+      min_x_ = std::min(min_x_, p.x());
+      max_x_ = std::max(max_x_, p.x());
+      min_y_ = std::min(min_y_, p.y());
+      max_y_ = std::max(max_y_, p.y());
+    }
+  }
+  min_x_ = std::max(min_x_, -(kMaxBoundFactor - 1) * w);
+  min_y_ = std::max(min_y_, -(kMaxBoundFactor - 1) * h);
+  max_x_ = std::min(max_x_, kMaxBoundFactor * w);
+  max_y_ = std::min(max_y_, kMaxBoundFactor * h);
+  log_scale_factor_ = std::log(scale);
+  for (int i = 0; i < std::max(levels, 2); ++i) scale_.push_back(std::pow(scale, i));
+}
+
+Undistorter::Undistorter(const Camera& camera) {
+  needed_ = camera.model() == Camera::Model::kKannalaBrandt ||
+            camera.distortion() != std::array<double, 5>{};
+  if (!needed_) return;
+  columns_ = (camera.width() + kTableStep - 1) / kTableStep + 1;
+  rows_ = (camera.height() + kTableStep - 1) / kTableStep + 1;
+  table_.reserve(static_cast<std::size_t>(columns_) * rows_);
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < columns_; ++c) {
+      Eigen::Vector2d p;
+      const bool ok = pinhole_pixel(camera, Eigen::Vector2d(c, r) * kTableStep, p);
+      table_.emplace_back(Eigen::Vector2f::Constant(NAN));
+      if (ok) table_.back() = p.cast<float>();
+    }
+  }
+}
+
+void Undistorter::apply(Features& features,
+                        const std::function<void(float, float)>& at) const {
+  if (!needed_) {
+    for (const Keypoint& kp : features.keypoints) at(kp.x, kp.y);
+    return;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    Keypoint kp = features.keypoints[i];
+    const float x = kp.x / kTableStep, y = kp.y / kTableStep;
+    const int c = std::clamp(static_cast<int>(x), 0, columns_ - 2);
+    const int r = std::clamp(static_cast<int>(y), 0, rows_ - 2);
+    const float a = x - c, b = y - r;
+    const Eigen::Vector2f* row = &table_[static_cast<std::size_t>(r) * columns_ + c];
+    const Eigen::Vector2f p = (1 - b) * ((1 - a) * row[0] + a * row[1]) +
+                              b * ((1 - a) * row[columns_] + a * row[columns_ + 1]);
+    if (!p.allFinite()) continue;
+    at(kp.x, kp.y);
+    kp.x = p.x();
+    kp.y = p.y();
+    features.keypoints[kept] = kp;
+    features.descriptors[kept] = features.descriptors[i];
+    ++kept;
+  }
+  features.keypoints.resize(kept);
+  features.descriptors.resize(kept);
+}
+
+void Frame::index(const View& view) {
+  grid.build(features.keypoints, static_cast<float>(view.min_x()), static_cast<float>(view.min_y()),
+             static_cast<float>(view.max_x()), static_cast<float>(view.max_y()));
+}
+
+}  // namespace cairn

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "cairn/features/features.h"
+#include "cairn/features/matching.h"
+#include "cairn/geometry/camera.h"
+
+namespace cairn {
+
+/// What the ideal pinhole camera sees: pixel bounds of the undistorted picture, and how uncertain a
+/// keypoint of each octave is.
+class View {
+ public:
+  View() = default;
+  View(const Camera& camera, int levels, double scale);
+
+  const Pinhole& pinhole() const { return pinhole_; }
+  bool contains(const Eigen::Vector2d& uv) const {
+    return uv.x() >= min_x_ && uv.x() < max_x_ && uv.y() >= min_y_ && uv.y() < max_y_;
+  }
+  double min_x() const { return min_x_; }
+  double min_y() const { return min_y_; }
+  double max_x() const { return max_x_; }
+  double max_y() const { return max_y_; }
+
+  int levels() const { return static_cast<int>(scale_.size()); }
+  double scale_factor() const { return scale_[1] / scale_[0]; }
+  double log_scale_factor() const { return log_scale_factor_; }
+  /// Size of a pixel of an octave in pixels of the full picture; taken as σ of its keypoints.
+  double sigma(int octave) const { return scale_[octave]; }
+
+ private:
+  Pinhole pinhole_;
+  double min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;
+  double log_scale_factor_ = 0;
+  std::vector<double> scale_;
+};
+
+/// One picture as tracking and mapping see it: features at undistorted pixels, with a grid to find
+/// them. Immutable once built, shared between tracker and map.
+struct Frame {
+  double timestamp = 0;  ///< seconds
+  Features features;     ///< at pixels of the ideal pinhole camera
+  KeypointGrid grid;
+  std::vector<Eigen::Matrix<unsigned char, 3, 1>> colours;  ///< RGB a keypoint
+
+  /// Builds the grid; to be called once the features are in place.
+  void index(const View& view);
+
+  std::size_t size() const { return features.size(); }
+  Eigen::Vector2d pixel(std::size_t i) const {
+    return {features.keypoints[i].x, features.keypoints[i].y};
+  }
+  int octave(std::size_t i) const { return features.keypoints[i].octave; }
+};
+
+/// Moves keypoints of a real lens to the ideal pinhole, through a table made once.
+class Undistorter {
+ public:
+  explicit Undistorter(const Camera& camera);
+  /// Moves the keypoints in place; those without a pinhole position are removed. `at(x, y)` is called
+  /// with the pixel in the picture of each one that stays, in order.
+  void apply(Features& features, const std::function<void(float, float)>& at) const;
+
+ private:
+  bool needed_ = false;
+  int columns_ = 0, rows_ = 0;
+  std::vector<Eigen::Vector2f> table_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,162 @@
+#include "cairn/map/map.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace cairn {
+
+KeyframeId Map::add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc) {
+  Keyframe keyframe;
+  keyframe.sequence = next_sequence_++;
+  keyframe.T_wc = T_wc;
+  keyframe.points.resize(frame->size());
+  keyframe.frame = std::move(frame);
+  newest_ = keyframes_.insert(std::move(keyframe));
+  if (!first_.valid()) first_ = newest_;
+  return newest_;
+}
+
+void Map::erase_keyframe(KeyframeId id) {
+  const std::vector<PointId> seen = keyframes_[id].points;
+  for (const PointId point : seen) {
+    if (point.valid()) erase_observation(point, id);
+  }
+  keyframes_.erase(id);
+}
+
+PointId Map::add_point(const Eigen::Vector3d& position) {
+  MapPoint point;
+  point.position = position;
+  point.born = next_sequence_;
+  return points_.insert(std::move(point));
+}
+
+void Map::erase_point(PointId id) {
+  for (const Observation& o : points_[id].observations) {
+    keyframes_[o.keyframe].points[o.keypoint] = {};
+  }
+  points_.erase(id);
+}
+
+void Map::add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint) {
+  assert(!keyframes_[keyframe].points[keypoint].valid());
+  assert(keypoint_of(point, keyframe) < 0);
+  keyframes_[keyframe].points[keypoint] = point;
+  points_[point].observations.push_back({keyframe, keypoint});
+}
+
+void Map::erase_observation(PointId id, KeyframeId keyframe) {
+  std::vector<Observation>& observations = points_[id].observations;
+  const auto it = std::find_if(observations.begin(), observations.end(),
+                               [&](const Observation& o) { return o.keyframe == keyframe; });
+  assert(it != observations.end());
+  keyframes_[keyframe].points[it->keypoint] = {};
+  observations.erase(it);
+  if (observations.size() < 2) erase_point(id);
+}
+
+void Map::merge_points(PointId from, PointId into) {
+  assert(from != into);
+  const std::vector<Observation> moved = points_[from].observations;
+  MapPoint& target = points_[into];
+  target.visible += points_[from].visible;
+  target.found += points_[from].found;
+  erase_point(from);
+  for (const Observation& o : moved) {
+    if (keypoint_of(into, o.keyframe) < 0) add_observation(into, o.keyframe, o.keypoint);
+  }
+  update_descriptor(into);
+  update_geometry(into);
+}
+
+int Map::keypoint_of(PointId point, KeyframeId keyframe) const {
+  for (const Observation& o : points_[point].observations) {
+    if (o.keyframe == keyframe) return static_cast<int>(o.keypoint);
+  }
+  return -1;
+}
+
+void Map::update_geometry(PointId id) {
+  MapPoint& point = points_[id];
+  if (point.observations.empty()) return;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double log_base = 0;
+  for (const Observation& o : point.observations) {
+    const Keyframe& keyframe = keyframes_[o.keyframe];
+    const Eigen::Vector3d ray = point.position - keyframe.T_wc.translation();
+    const double distance = std::max(ray.norm(), 1e-12);
+    normal += ray / distance;
+    log_base += std::log(distance * view_.sigma(keyframe.frame->octave(o.keypoint)));
+  }
+  point.normal = normal.normalized().cast<float>();
+  point.base_distance = static_cast<float>(std::exp(log_base / point.observations.size()));
+}
+
+void Map::update_descriptor(PointId id) {
+  MapPoint& point = points_[id];
+  // The last dozen observations are enough to find a typical one, and bound the cost.
+  constexpr std::size_t kConsidered = 12;
+  const std::size_t n = std::min(point.observations.size(), kConsidered);
+  const std::size_t begin = point.observations.size() - n;
+  std::array<const Descriptor*, kConsidered> descriptors{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const Observation& o = point.observations[begin + i];
+    descriptors[i] = &keyframes_[o.keyframe].frame->features.descriptors[o.keypoint];
+  }
+  int best_median = 257;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::array<int, kConsidered> distances{};
+    for (std::size_t j = 0; j < n; ++j) distances[j] = hamming(*descriptors[i], *descriptors[j]);
+    std::nth_element(distances.begin(), distances.begin() + n / 2, distances.begin() + n);
+    if (distances[n / 2] < best_median) {
+      best_median = distances[n / 2];
+      point.descriptor = *descriptors[i];
+    }
+  }
+}
+
+std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_shared) const {
+  std::vector<KeyframeId> seen;
+  for (const PointId p : keyframes_[id].points) {
+    if (!p.valid()) continue;
+    for (const Observation& o : points_[p].observations) {
+      if (o.keyframe != id) seen.push_back(o.keyframe);
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  std::vector<std::pair<KeyframeId, int>> result;
+  for (std::size_t i = 0; i < seen.size();) {
+    std::size_t j = i;
+    while (j < seen.size() && seen[j] == seen[i]) ++j;
+    if (static_cast<int>(j - i) >= min_shared) result.emplace_back(seen[i], int(j - i));
+    i = j;
+  }
+  std::sort(result.begin(), result.end(), [&](const auto& a, const auto& b) {
+    if (a.second != b.second) return a.second > b.second;
+    return keyframes_[a.first].sequence < keyframes_[b.first].sequence;
+  });
+  return result;
+}
+
+double Map::depth_quantile(KeyframeId id, double quantile) const {
+  const Keyframe& keyframe = keyframes_[id];
+  const SE3 T_cw = keyframe.T_wc.inverse();
+  std::vector<double> depths;
+  for (const PointId p : keyframe.points) {
+    if (p.valid()) depths.push_back((T_cw * points_[p].position).z());
+  }
+  if (depths.empty()) return 0;
+  const auto nth = depths.begin() + static_cast<std::ptrdiff_t>(quantile * (depths.size() - 1));
+  std::nth_element(depths.begin(), nth, depths.end());
+  return *nth;
+}
+
+int Map::tracked_points(KeyframeId id, int min_observations) const {
+  int count = 0;
+  for (const PointId p : keyframes_[id].points) {
+    count += p.valid() && int(points_[p].observations.size()) >= min_observations;
+  }
+  return count;
+}
+
+}  // namespace cairn

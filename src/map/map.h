@@ -1,0 +1,90 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cairn/geometry/se3.h"
+#include "cairn/map/frame.h"
+#include "cairn/map/ids.h"
+#include "cairn/map/slot_map.h"
+
+namespace cairn {
+
+/// A frame that stays: its pose is optimised, its keypoints carry map points.
+struct Keyframe {
+  std::uint32_t sequence = 0;  ///< how many keyframes were made before it, ever
+  std::shared_ptr<const Frame> frame;
+  SE3 T_wc;                     ///< camera to world
+  std::vector<PointId> points;  ///< one a keypoint; invalid where there is none
+
+  double timestamp() const { return frame->timestamp; }
+};
+
+/// A keypoint of a keyframe that sees a map point.
+struct Observation {
+  KeyframeId keyframe;
+  std::uint32_t keypoint = 0;
+};
+
+struct MapPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world, in units of the map
+  Descriptor descriptor{};   ///< of all observations the one nearest to the others
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< mean direction camera to point, unit
+  float base_distance = 0;  ///< distance at which it would show in octave 0
+  std::vector<Observation> observations;
+  std::uint32_t born = 0;  ///< sequence number of the keyframe that made it
+  std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
+  Eigen::Matrix<unsigned char, 3, 1> colour = Eigen::Matrix<unsigned char, 3, 1>::Zero();  ///< RGB
+};
+
+/// Keyframes and points with their observations. Owned and changed by the mapper alone.
+class Map {
+ public:
+  explicit Map(const View& view) : view_(view) {}
+
+  const View& view() const { return view_; }
+  SlotMap<Keyframe, KeyframeId>& keyframes() { return keyframes_; }
+  const SlotMap<Keyframe, KeyframeId>& keyframes() const { return keyframes_; }
+  SlotMap<MapPoint, PointId>& points() { return points_; }
+  const SlotMap<MapPoint, PointId>& points() const { return points_; }
+
+  KeyframeId add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc);
+  /// Erases a keyframe and its observations; points that nobody else sees go with it.
+  void erase_keyframe(KeyframeId id);
+
+  PointId add_point(const Eigen::Vector3d& position);
+  void erase_point(PointId id);
+  /// Both directions of the link. The keypoint must be free, the point not yet seen by the keyframe.
+  void add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint);
+  /// Unlinks; a point that is left with fewer than two observations is erased.
+  void erase_observation(PointId point, KeyframeId keyframe);
+  /// `from` becomes `into`: observations move where the keyframe does not see `into` yet.
+  void merge_points(PointId from, PointId into);
+
+  /// The keypoint by which a keyframe sees a point, or -1.
+  int keypoint_of(PointId point, KeyframeId keyframe) const;
+  /// Recomputes normal and base distance, or the descriptor, from the observations.
+  void update_geometry(PointId id);
+  void update_descriptor(PointId id);
+
+  /// Keyframes that share at least `min_shared` points with this one, the most first (then in order
+  /// of making).
+  std::vector<std::pair<KeyframeId, int>> covisible(KeyframeId id, int min_shared) const;
+  /// Quantile (0.5: median) of the depths of the points that a keyframe sees; 0 where it sees none.
+  double depth_quantile(KeyframeId id, double quantile) const;
+  /// Number of points of a keyframe that at least `min_observations` keyframes see.
+  int tracked_points(KeyframeId id, int min_observations) const;
+
+  KeyframeId newest() const { return newest_; }
+  KeyframeId first() const { return first_; }
+
+ private:
+  View view_;
+  SlotMap<Keyframe, KeyframeId> keyframes_;
+  SlotMap<MapPoint, PointId> points_;
+  std::uint32_t next_sequence_ = 0;
+  KeyframeId first_, newest_;
+};
+
+}  // namespace cairn

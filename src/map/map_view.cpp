@@ -1,0 +1,88 @@
+#include "cairn/map/map_view.h"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+constexpr int kMinSharedPoints = 5;
+constexpr int kNeighboursOfNeighbour = 5;
+
+// The reference, its covisible keyframes, then the best neighbours of those; each once.
+std::vector<KeyframeId> local_keyframes(const Map& map, KeyframeId reference) {
+  std::vector<KeyframeId> local = {reference};
+  std::vector<bool> taken;
+  auto take = [&](KeyframeId id) {
+    if (id.slot >= taken.size()) taken.resize(id.slot + 1, false);
+    const bool fresh = !taken[id.slot];
+    taken[id.slot] = true;
+    return fresh;
+  };
+  take(reference);
+  for (const auto& [id, shared] : map.covisible(reference, kMinSharedPoints)) {
+    if (take(id)) local.push_back(id);
+  }
+  const std::size_t direct = local.size();
+  for (std::size_t i = 1; i < direct; ++i) {
+    const auto neighbours = map.covisible(local[i], kMinSharedPoints);
+    const std::size_t n = std::min<std::size_t>(neighbours.size(), kNeighboursOfNeighbour);
+    for (std::size_t k = 0; k < n; ++k) {
+      if (take(neighbours[k].first)) local.push_back(neighbours[k].first);
+    }
+  }
+  return local;
+}
+
+}  // namespace
+
+std::uint32_t MapView::index_of(PointId id) const {
+  const auto it = std::lower_bound(points.begin(), points.end(), id,
+                                   [](const Point& p, PointId value) { return p.id < value; });
+  if (it == points.end() || it->id != id) return kNone;
+  return static_cast<std::uint32_t>(it - points.begin());
+}
+
+std::optional<SE3> MapView::pose_of(KeyframeId id) const {
+  const auto it =
+      std::lower_bound(keyframes.begin(), keyframes.end(), id,
+                       [](const KeyframePose& k, KeyframeId value) { return k.id < value; });
+  if (it == keyframes.end() || it->id != id) return std::nullopt;
+  return it->T_wc;
+}
+
+std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, int max_points,
+                                         std::uint64_t version) {
+  auto view = std::make_shared<MapView>();
+  view->version = version;
+  view->reference = reference;
+  view->reference_frame = map.keyframes()[reference].frame;
+  view->reference_tracked = map.tracked_points(reference, 2);
+  view->median_depth = map.depth_quantile(reference, 0.5);
+  view->map_keyframes = map.keyframes().size();
+  view->map_points = map.points().size();
+
+  std::vector<PointId> ids;
+  for (const KeyframeId id : local_keyframes(map, reference)) {
+    const Keyframe& keyframe = map.keyframes()[id];
+    view->keyframes.push_back({id, keyframe.T_wc});
+    if (static_cast<int>(ids.size()) >= max_points) continue;
+    for (const PointId p : keyframe.points) {
+      if (p.valid()) ids.push_back(p);
+    }
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+  view->points.reserve(ids.size());
+  for (const PointId id : ids) {
+    const MapPoint& p = map.points()[id];
+    view->points.push_back({id, p.position, p.normal, p.base_distance, p.descriptor});
+  }
+  std::sort(view->keyframes.begin(), view->keyframes.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  for (const PointId p : map.keyframes()[reference].points) {
+    view->reference_points.push_back(p.valid() ? view->index_of(p) : MapView::kNone);
+  }
+  return view;
+}
+
+}  // namespace cairn

@@ -1,0 +1,170 @@
+#include "cairn/mapping/mapper.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "cairn/mapping/point_creation.h"
+#include "cairn/mapping/point_fusion.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kMinInitialPoints = 50;
+constexpr double kMinFoundRatio = 0.25;  // of the frames that should see a point
+constexpr std::uint32_t kProbation = 3;  // keyframes
+
+}  // namespace
+
+Mapper::Mapper(const View& view, const MappingOptions& options) : options_(options), map_(view) {}
+
+bool Mapper::initialize(const InitialPair& initial) {
+  const KeyframeId first = map_.add_keyframe(initial.frame1, SE3());
+  const KeyframeId second = map_.add_keyframe(initial.frame2, initial.T_21.inverse());
+  for (const auto& p : initial.points) {
+    const PointId id = map_.add_point(p.position);
+    map_.add_observation(id, first, p.keypoint1);
+    map_.add_observation(id, second, p.keypoint2);
+    if (p.keypoint1 < initial.frame1->colours.size()) {
+      map_.points()[id].colour = initial.frame1->colours[p.keypoint1];
+    }
+    map_.update_descriptor(id);
+  }
+  const AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, nullptr);
+  const double depth = map_.depth_quantile(first, 0.5);
+  if (!summary.usable || depth <= 0 || int(map_.points().size()) < kMinInitialPoints) return false;
+  // One unit of the map is the median depth of its first picture, until something metric is known.
+  Keyframe& k2 = map_.keyframes()[second];
+  k2.T_wc = SE3(k2.T_wc.rotation(), k2.T_wc.translation() / depth);
+  map_.points().for_each([&](PointId id, MapPoint& p) {
+    p.position /= depth;
+    map_.update_geometry(id);
+  });
+  for (const KeyframeId id : {first, second}) {
+    retrieval_.add(id.slot, map_.keyframes()[id].frame->features);
+  }
+  current_ = second;
+  publish(second);
+  return true;
+}
+
+KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
+  const Keyframe* reference = map_.keyframes().find(candidate.reference);
+  SE3 T_wr;
+  if (reference != nullptr) {
+    T_wr = reference->T_wc;
+  } else {  // culled in the meantime: go up to where it was
+    SE3 T_pr;
+    KeyframeId id = candidate.reference;
+    while (!map_.keyframes().contains(id)) {
+      const auto it = std::find_if(buried_.begin(), buried_.end(),
+                                   [&](const BuriedKeyframe& b) { return b.id == id; });
+      if (it == buried_.end()) break;
+      T_pr = it->T_pk * T_pr;
+      id = it->parent;
+    }
+    T_wr = map_.keyframes()[id].T_wc * T_pr;
+  }
+  current_ = map_.add_keyframe(candidate.frame, T_wr * candidate.T_rc);
+  Keyframe& keyframe = map_.keyframes()[current_];
+  for (std::uint32_t i = 0; i < candidate.points.size(); ++i) {
+    const PointId p = candidate.points[i];
+    if (!p.valid() || !map_.points().contains(p) || map_.keypoint_of(p, current_) >= 0) continue;
+    map_.add_observation(p, current_, i);
+    map_.update_descriptor(p);
+    map_.update_geometry(p);
+  }
+  retrieval_.add(current_.slot, keyframe.frame->features);
+  cull_recent_points();
+  const std::vector<PointId> created =
+      create_points(map_, current_, {options_.neighbours, options_.min_parallax_deg});
+  recent_.insert(recent_.end(), created.begin(), created.end());
+  const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
+  spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused", keyframe.sequence,
+                keyframe.timestamp(), map_.tracked_points(current_, 1), created.size(), fused);
+  publish(current_);
+  return current_;
+}
+
+void Mapper::adjust(const std::atomic<bool>* abort) {
+  if (map_.keyframes().size() > 2) {
+    const AdjustmentSummary s = adjust_locally(map_, current_, options_.adjustment, abort);
+    spdlog::debug("local adjustment: {}", s.to_string());
+  }
+  cull_keyframes();
+  publish(current_);
+}
+
+AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
+  if (map_.keyframes().size() < 2) return {};
+  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, abort);
+  publish(map_.newest());
+  return summary;
+}
+
+KeyframeId Mapper::keyframe_in_slot(std::uint32_t slot) const {
+  KeyframeId result;
+  map_.keyframes().for_each([&](KeyframeId id, const Keyframe&) {
+    if (id.slot == slot) result = id;
+  });
+  return result;
+}
+
+void Mapper::count_visible(std::span<const PointId> visible, std::span<const PointId> found) {
+  for (const PointId id : visible) {
+    if (MapPoint* p = map_.points().find(id)) ++p->visible;
+  }
+  for (const PointId id : found) {
+    if (MapPoint* p = map_.points().find(id)) ++p->found;
+  }
+}
+
+void Mapper::publish(KeyframeId reference) {
+  view_ = make_view(map_, reference, options_.max_local_points, ++version_);
+}
+
+// New points are on probation: they must be found where they should be, and seen by a third keyframe
+// once two more keyframes have had the chance.
+void Mapper::cull_recent_points() {
+  const std::uint32_t now = map_.keyframes()[current_].sequence;
+  std::erase_if(recent_, [&](PointId id) {
+    const MapPoint* p = map_.points().find(id);
+    if (p == nullptr) return true;
+    const std::uint32_t age = now - p->born;
+    if (p->found < kMinFoundRatio * p->visible ||
+        (age >= 2 && p->observations.size() <= 2)) {
+      map_.erase_point(id);
+      return true;
+    }
+    return age >= kProbation;
+  });
+}
+
+// A keyframe goes when nearly all that it sees is seen by three others as sharply as by it.
+void Mapper::cull_keyframes() {
+  for (const auto& [id, shared] : map_.covisible(current_, 15)) {
+    if (id == map_.first() || id == current_) continue;
+    const Keyframe& keyframe = map_.keyframes()[id];
+    int seen = 0, redundant = 0;
+    for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
+      if (!keyframe.points[i].valid()) continue;
+      ++seen;
+      const int octave = keyframe.frame->octave(i);
+      int others = 0;
+      for (const Observation& o : map_.points()[keyframe.points[i]].observations) {
+        if (o.keyframe == id) continue;
+        others += map_.keyframes()[o.keyframe].frame->octave(o.keypoint) <= octave + 1;
+        if (others >= 3) break;
+      }
+      redundant += others >= 3;
+    }
+    if (redundant <= options_.redundancy * seen) continue;
+    const auto neighbours = map_.covisible(id, 1);
+    const KeyframeId parent = neighbours.front().first;
+    buried_.push_back({id, parent, map_.keyframes()[parent].T_wc.inverse() * keyframe.T_wc});
+    retrieval_.remove(id.slot);
+    map_.erase_keyframe(id);
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,80 @@
+#pragma once
+
+// The mapping room: keyframes in, map out. It alone changes the map. It knows no threads and no
+// pictures: the system room says when to map, the tracker what was seen.
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cairn/features/retrieval.h"
+#include "cairn/map/initial_pair.h"
+#include "cairn/map/map.h"
+#include "cairn/map/map_view.h"
+#include "cairn/optimization/map_adjustment.h"
+
+namespace cairn {
+
+struct MappingOptions {
+  int neighbours = 20;              ///< keyframes that new points are triangulated with
+  double min_parallax_deg = 1.0;    ///< between the rays of a new point
+  int max_local_points = 4000;      ///< points in a published view
+  double redundancy = 0.9;          ///< share of its points seen elsewhere that makes a keyframe go
+  AdjustmentOptions adjustment;
+};
+
+/// A frame that is to become a keyframe, as tracked.
+struct KeyframeCandidate {
+  std::shared_ptr<const Frame> frame;
+  KeyframeId reference;         ///< T_wc = T_w,reference · T_rc
+  SE3 T_rc;
+  std::vector<PointId> points;  ///< one a keypoint
+};
+
+/// A keyframe that is gone, and where it was from one that stays.
+struct BuriedKeyframe {
+  KeyframeId id, parent;
+  SE3 T_pk;  ///< keyframe to parent
+};
+
+class Mapper {
+ public:
+  Mapper(const View& view, const MappingOptions& options);
+
+  /// Starts the map: two keyframes, adjusted; median depth 1. False if too little is left of it.
+  bool initialize(const InitialPair& initial);
+  /// Takes a keyframe in: its points, new points, fusion; publishes. `adjust` does the rest.
+  KeyframeId insert(const KeyframeCandidate& candidate);
+  /// Local adjustment and culling after an insertion; publishes. Returns early when `abort` is set.
+  void adjust(const std::atomic<bool>* abort);
+  /// The end: fusion over the whole map, then full adjustment.
+  AdjustmentSummary finish(const std::atomic<bool>* abort);
+
+  /// What the tracker saw and should have seen, for culling.
+  void count_visible(std::span<const PointId> visible, std::span<const PointId> found);
+
+  /// The newest snapshot.
+  const std::shared_ptr<const MapView>& view() const { return view_; }
+  const Map& map() const { return map_; }
+  /// The keyframe that the retrieval knows by its slot.
+  KeyframeId keyframe_in_slot(std::uint32_t slot) const;
+  const KeyframeRetrieval& retrieval() const { return retrieval_; }
+  const std::vector<BuriedKeyframe>& buried() const { return buried_; }
+
+ private:
+  void publish(KeyframeId reference);
+  void cull_recent_points();
+  void cull_keyframes();
+
+  MappingOptions options_;
+  Map map_;
+  KeyframeRetrieval retrieval_;
+  std::vector<PointId> recent_;  // points on probation
+  std::vector<BuriedKeyframe> buried_;
+  KeyframeId current_;
+  std::uint64_t version_ = 0;
+  std::shared_ptr<const MapView> view_;
+};
+
+}  // namespace cairn

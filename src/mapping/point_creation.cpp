@@ -1,0 +1,148 @@
+#include "cairn/mapping/point_creation.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "cairn/features/matching.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kMaxDistance = 50;         // Hamming
+constexpr double kEpipolarGate = 3.84;   // χ², 1 degree of freedom, 95 %
+constexpr double kReprojectionGate = 5.991;
+constexpr double kMinBaselineRatio = 0.01;  // of the median depth
+constexpr double kSizeTolerance = 1.8;      // between what distance and octaves say
+
+// All that is needed of one keyframe in a pair.
+struct Eye {
+  const Keyframe& keyframe;
+  const Frame& frame;
+  SE3 T_cw;
+  Eigen::Matrix<double, 3, 4> P;  // normalised: no intrinsics
+
+  explicit Eye(const Keyframe& k) : keyframe(k), frame(*k.frame), T_cw(k.T_wc.inverse()) {
+    P.leftCols<3>() = T_cw.matrix3();
+    P.col(3) = T_cw.translation();
+  }
+};
+
+Eigen::Vector3d triangulate(const Eye& a, const Eye& b, const Eigen::Vector3d& ray_a,
+                            const Eigen::Vector3d& ray_b) {
+  Eigen::Matrix4d A;  // Hartley and Zisserman, 12.2
+  A.row(0) = ray_a.x() * a.P.row(2) - a.P.row(0);
+  A.row(1) = ray_a.y() * a.P.row(2) - a.P.row(1);
+  A.row(2) = ray_b.x() * b.P.row(2) - b.P.row(0);
+  A.row(3) = ray_b.y() * b.P.row(2) - b.P.row(1);
+  const Eigen::Matrix3d N = A.leftCols<3>().transpose() * A.leftCols<3>();
+  return N.ldlt().solve(-A.leftCols<3>().transpose() * A.col(3));
+}
+
+bool reprojects(const View& view, const Eye& eye, const Eigen::Vector3d& X_w,
+                std::uint32_t keypoint) {
+  const Eigen::Vector3d X = eye.T_cw * X_w;
+  if (!(X.z() > 0)) return false;
+  const double sigma = view.sigma(eye.frame.octave(keypoint));
+  return (view.pinhole().project(X) - eye.frame.pixel(keypoint)).squaredNorm() <
+         kReprojectionGate * sigma * sigma;
+}
+
+class PairMatcher {
+ public:
+  PairMatcher(Map& map, KeyframeId id1, KeyframeId id2, double min_parallax_deg)
+      : map_(map), id1_(id1), id2_(id2), a_(map.keyframes()[id1]), b_(map.keyframes()[id2]),
+        max_cosine_(std::cos(min_parallax_deg * M_PI / 180)) {
+    const SE3 T_21 = b_.T_cw * a_.T_cw.inverse();
+    const Pinhole& K = map.view().pinhole();
+    Eigen::Matrix3d K_inv;
+    K_inv << 1 / K.fx, 0, -K.cx / K.fx, 0, 1 / K.fy, -K.cy / K.fy, 0, 0, 1;
+    F_ = K_inv.transpose() * skew(T_21.translation()) * T_21.matrix3() * K_inv;
+    R_12_ = T_21.matrix3().transpose();
+  }
+
+  void run(std::vector<PointId>& created) {
+    free2_.clear();
+    for (std::uint32_t j = 0; j < b_.frame.size(); ++j) {
+      if (!b_.keyframe.points[j].valid()) free2_.push_back(j);
+    }
+    taken_.assign(b_.frame.size(), 0);
+    for (std::uint32_t i = 0; i < a_.frame.size(); ++i) {
+      if (a_.keyframe.points[i].valid()) continue;
+      const int j = best_on_line(i);
+      if (j >= 0) try_point(i, static_cast<std::uint32_t>(j), created);
+    }
+  }
+
+ private:
+  // The nearest descriptor near to the epipolar line of keypoint i, or -1.
+  int best_on_line(std::uint32_t i) const {
+    const Eigen::Vector3d line = F_ * a_.frame.pixel(i).homogeneous();
+    const double norm2 = line.head<2>().squaredNorm();
+    if (norm2 < 1e-20) return -1;
+    const Descriptor& d = a_.frame.features.descriptors[i];
+    int best = kMaxDistance + 1, result = -1;
+    for (const std::uint32_t j : free2_) {
+      if (taken_[j]) continue;
+      const int distance = hamming(d, b_.frame.features.descriptors[j]);
+      if (distance >= best) continue;
+      const double sigma = map_.view().sigma(b_.frame.octave(j));
+      const double e = line.dot(b_.frame.pixel(j).homogeneous());
+      if (e * e > kEpipolarGate * sigma * sigma * norm2) continue;
+      best = distance;
+      result = static_cast<int>(j);
+    }
+    return result;
+  }
+
+  void try_point(std::uint32_t i, std::uint32_t j, std::vector<PointId>& created) {
+    const View& view = map_.view();
+    const Eigen::Vector3d ray1 = view.pinhole().unproject(a_.frame.pixel(i));
+    const Eigen::Vector3d ray2 = view.pinhole().unproject(b_.frame.pixel(j));
+    const double cosine = ray1.normalized().dot((R_12_ * ray2).normalized());
+    if (!(cosine > 0 && cosine < max_cosine_)) return;
+    const Eigen::Vector3d X = triangulate(a_, b_, ray1, ray2);
+    if (!X.allFinite() || !reprojects(view, a_, X, i) || !reprojects(view, b_, X, j)) return;
+    const double d1 = (X - a_.keyframe.T_wc.translation()).norm();
+    const double d2 = (X - b_.keyframe.T_wc.translation()).norm();
+    const double size_ratio = d1 * view.sigma(a_.frame.octave(i)) / (d2 * view.sigma(b_.frame.octave(j)));
+    if (size_ratio > kSizeTolerance || size_ratio * kSizeTolerance < 1) return;
+    const PointId id = map_.add_point(X);
+    map_.add_observation(id, id1_, i);
+    map_.add_observation(id, id2_, j);
+    MapPoint& p = map_.points()[id];
+    if (i < a_.frame.colours.size()) p.colour = a_.frame.colours[i];
+    p.born = a_.keyframe.sequence;
+    map_.update_descriptor(id);
+    map_.update_geometry(id);
+    taken_[j] = 1;
+    created.push_back(id);
+  }
+
+  Map& map_;
+  KeyframeId id1_, id2_;
+  Eye a_, b_;
+  double max_cosine_;
+  Eigen::Matrix3d F_, R_12_;
+  std::vector<std::uint32_t> free2_;
+  std::vector<char> taken_;
+};
+
+}  // namespace
+
+std::vector<PointId> create_points(Map& map, KeyframeId keyframe,
+                                   const PointCreationOptions& options) {
+  std::vector<PointId> created;
+  const auto neighbours = map.covisible(keyframe, 10);
+  const std::size_t n = std::min<std::size_t>(neighbours.size(), options.neighbours);
+  for (std::size_t k = 0; k < n; ++k) {
+    const KeyframeId other = neighbours[k].first;
+    const double baseline = (map.keyframes()[keyframe].T_wc.translation() -
+                             map.keyframes()[other].T_wc.translation()).norm();
+    if (baseline < kMinBaselineRatio * map.depth_quantile(other, 0.5)) continue;
+    PairMatcher(map, keyframe, other, options.min_parallax_deg).run(created);
+  }
+  return created;
+}
+
+}  // namespace cairn

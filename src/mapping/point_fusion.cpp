@@ -1,0 +1,97 @@
+#include "cairn/mapping/point_fusion.h"
+
+#include <algorithm>
+
+#include "cairn/map/visibility.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kMaxDistance = 50;  // Hamming
+constexpr double kGate = 5.991;   // χ², 2 degrees of freedom, 95 %
+constexpr int kSecondNeighbours = 5;
+
+// The keypoint of the keyframe that shows the point best, or -1.
+int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, const Visibility& v,
+                  double radius) {
+  int best = kMaxDistance + 1, result = -1;
+  frame.grid.for_each_within(
+      static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y()),
+      static_cast<float>(radius * view.sigma(v.octave)), v.octave - 1, v.octave + 1,
+      [&](std::uint32_t i) {
+        const double sigma = view.sigma(frame.octave(i));
+        if ((frame.pixel(i) - v.pixel).squaredNorm() > kGate * sigma * sigma) return;
+        const int distance = hamming(point.descriptor, frame.features.descriptors[i]);
+        if (distance < best) {
+          best = distance;
+          result = static_cast<int>(i);
+        }
+      });
+  return result;
+}
+
+}  // namespace
+
+int fuse_into(Map& map, KeyframeId id, std::span<const PointId> points, double radius) {
+  int fused = 0;
+  const Keyframe& keyframe = map.keyframes()[id];
+  const SE3 T_cw = keyframe.T_wc.inverse();
+  for (const PointId p : points) {
+    if (!map.points().contains(p) || map.keypoint_of(p, id) >= 0) continue;
+    const MapPoint& point = map.points()[p];
+    const Visibility v = predict_visibility(map.view(), T_cw, keyframe.T_wc.translation(),
+                                            point.position, point.normal, point.base_distance);
+    if (!v.visible) continue;
+    const int keypoint = find_keypoint(map.view(), *keyframe.frame, point, v, radius);
+    if (keypoint < 0) continue;
+    const PointId other = keyframe.points[keypoint];
+    if (!other.valid()) {
+      map.add_observation(p, id, static_cast<std::uint32_t>(keypoint));
+      map.update_descriptor(p);
+    } else if (map.points()[other].observations.size() > point.observations.size()) {
+      map.merge_points(p, other);
+    } else {
+      map.merge_points(other, p);
+    }
+    ++fused;
+  }
+  return fused;
+}
+
+int fuse_neighbourhood(Map& map, KeyframeId id, int neighbours) {
+  std::vector<KeyframeId> targets;
+  auto add = [&](KeyframeId k) {
+    if (k != id && std::find(targets.begin(), targets.end(), k) == targets.end()) targets.push_back(k);
+  };
+  const auto direct = map.covisible(id, 10);
+  const std::size_t n = std::min<std::size_t>(direct.size(), neighbours);
+  for (std::size_t i = 0; i < n; ++i) add(direct[i].first);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto second = map.covisible(direct[i].first, 15);
+    for (std::size_t k = 0; k < std::min<std::size_t>(second.size(), kSecondNeighbours); ++k) {
+      add(second[k].first);
+    }
+  }
+  int fused = 0;
+  auto points_of = [&](KeyframeId k) {
+    std::vector<PointId> points = map.keyframes()[k].points;
+    std::erase_if(points, [](PointId p) { return !p.valid(); });
+    return points;
+  };
+  for (const KeyframeId target : targets) fused += fuse_into(map, target, points_of(id), 3);
+  std::vector<PointId> around;
+  for (const KeyframeId target : targets) {
+    const auto points = points_of(target);
+    around.insert(around.end(), points.begin(), points.end());
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  fused += fuse_into(map, id, around, 3);
+  for (const PointId p : points_of(id)) {
+    map.update_descriptor(p);
+    map.update_geometry(p);
+  }
+  return fused;
+}
+
+}  // namespace cairn

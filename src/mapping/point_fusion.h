@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/map/map.h"
+
+namespace cairn {
+
+/// Projects points into a keyframe. Where one meets a keypoint that looks the same, the keypoint
+/// becomes an observation of it, or, if it has a point already, the two become one (the one that is
+/// seen more often stays). `radius`: pixels at octave 0. Returns how many links or merges were made.
+int fuse_into(Map& map, KeyframeId keyframe, std::span<const PointId> points, double radius);
+
+/// Fusion between a keyframe and its neighbourhood, both ways.
+int fuse_neighbourhood(Map& map, KeyframeId keyframe, int neighbours);
+
+}  // namespace cairn

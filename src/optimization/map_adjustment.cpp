@@ -1,0 +1,263 @@
+#include "cairn/optimization/map_adjustment.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+
+#include "cairn/optimization/factors/point_factor.h"
+#include "cairn/optimization/se3_manifold.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
+
+// A part of the map as a least-squares problem: contiguous parameters, filled from the map, written
+// back to it.
+class Adjustment {
+ public:
+  Adjustment(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
+             std::vector<PointId> points)
+      : map_(map), keyframes_(std::move(free)), points_(std::move(points)) {
+    free_count_ = keyframes_.size();
+    keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
+    for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+      const std::uint32_t slot = keyframes_[i].slot;
+      if (slot >= index_of_slot_.size()) index_of_slot_.resize(slot + 1, -1);
+      index_of_slot_[slot] = static_cast<int>(i);
+    }
+    build();
+  }
+
+  AdjustmentSummary solve(int iterations, const std::atomic<bool>* abort) {
+    ceres::Solver::Options options;
+    options.linear_solver_type =
+        free_count_ > 60 ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
+    options.linear_solver_ordering = ordering_;
+    options.max_num_iterations = iterations;
+    options.function_tolerance = 1e-5;
+    options.num_threads = 1;  // more would sum in an order that changes from run to run
+    options.logging_type = ceres::SILENT;
+    AbortCallback callback(abort);
+    if (abort != nullptr) options.callbacks.push_back(&callback);
+    ceres::Solver::Summary s;
+    ceres::Solve(options, problem_.get(), &s);
+
+    AdjustmentSummary summary;
+    summary.usable = s.IsSolutionUsable();
+    summary.keyframes = static_cast<int>(free_count_);
+    summary.points = static_cast<int>(points_.size());
+    summary.observations = static_cast<int>(observations_.size());
+    summary.iterations = static_cast<int>(s.iterations.size());
+    const double n = std::max<std::size_t>(observations_.size(), 1);
+    summary.initial_rms = std::sqrt(2 * s.initial_cost / n);
+    summary.final_rms = std::sqrt(2 * s.final_cost / n);
+    return summary;
+  }
+
+  void write_back() {
+    for (std::size_t i = 0; i < free_count_; ++i) {
+      map_.keyframes()[keyframes_[i]].T_wc = SE3Manifold::unpack(&pose_values_[7 * i]);
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      map_.points()[points_[i]].position = Eigen::Vector3d::Map(&point_values_[3 * i]);
+    }
+  }
+
+  // Erases the observations that do not fit; to be called after write_back.
+  int erase_outliers() {
+    int erased = 0;
+    for (const Edge& edge : observations_) {
+      const KeyframeId keyframe = keyframes_[edge.keyframe];
+      const PointId point = points_[edge.point];
+      if (!map_.points().contains(point) || map_.keypoint_of(point, keyframe) < 0) continue;
+      const Keyframe& k = map_.keyframes()[keyframe];
+      const Eigen::Vector3d X = k.T_wc.inverse() * map_.points()[point].position;
+      const double sigma = map_.view().sigma(k.frame->octave(edge.keypoint));
+      const bool agrees = X.z() > 0 && ((map_.view().pinhole().project(X) -
+                                         k.frame->pixel(edge.keypoint)) / sigma)
+                                               .squaredNorm() < kGate;
+      if (agrees) continue;
+      map_.erase_observation(point, keyframe);
+      ++erased;
+    }
+    for (const PointId id : points_) {
+      if (map_.points().contains(id)) map_.update_geometry(id);
+    }
+    return erased;
+  }
+
+ private:
+  struct Edge {
+    std::uint32_t keyframe, point, keypoint;
+  };
+
+  class AbortCallback : public ceres::IterationCallback {
+   public:
+    explicit AbortCallback(const std::atomic<bool>* abort) : abort_(abort) {}
+    ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+      return abort_->load() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+
+   private:
+    const std::atomic<bool>* abort_;
+  };
+
+  void build() {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.disable_all_safety_checks = true;
+    problem_ = std::make_unique<ceres::Problem>(options);
+    ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
+    collect();
+    pose_values_.resize(7 * keyframes_.size());
+    point_values_.resize(3 * points_.size());
+    for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+      SE3Manifold::pack(map_.keyframes()[keyframes_[i]].T_wc, &pose_values_[7 * i]);
+      problem_->AddParameterBlock(&pose_values_[7 * i], 7, &manifold_);
+      ordering_->AddElementToGroup(&pose_values_[7 * i], 1);
+      if (i >= free_count_) problem_->SetParameterBlockConstant(&pose_values_[7 * i]);
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      Eigen::Vector3d::Map(&point_values_[3 * i]) = map_.points()[points_[i]].position;
+      problem_->AddParameterBlock(&point_values_[3 * i], 3);
+      ordering_->AddElementToGroup(&point_values_[3 * i], 0);
+    }
+    for (const Edge& edge : observations_) {
+      const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
+      factors_.emplace_back(map_.view().pinhole(), frame.pixel(edge.keypoint),
+                            map_.view().sigma(frame.octave(edge.keypoint)));
+      problem_->AddResidualBlock(&factors_.back(), &loss_, &pose_values_[7 * edge.keyframe],
+                                 &point_values_[3 * edge.point]);
+    }
+  }
+
+  void collect() {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      for (const Observation& o : map_.points()[points_[i]].observations) {
+        const int keyframe = o.keyframe.slot < index_of_slot_.size()
+                                 ? index_of_slot_[o.keyframe.slot]
+                                 : -1;
+        if (keyframe < 0) continue;
+        observations_.push_back(
+            {static_cast<std::uint32_t>(keyframe), static_cast<std::uint32_t>(i), o.keypoint});
+      }
+    }
+  }
+
+  Map& map_;
+  std::vector<KeyframeId> keyframes_;  // the free ones first
+  std::size_t free_count_ = 0;
+  std::vector<PointId> points_;
+  std::vector<int> index_of_slot_;
+  std::vector<Edge> observations_;
+  std::vector<double> pose_values_, point_values_;
+  std::deque<PointFactor> factors_;
+  ceres::HuberLoss loss_{std::sqrt(kGate)};
+  SE3Manifold manifold_;
+  std::unique_ptr<ceres::Problem> problem_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+};
+
+std::vector<PointId> points_seen_by(const Map& map, const std::vector<KeyframeId>& keyframes) {
+  std::vector<PointId> points;
+  for (const KeyframeId id : keyframes) {
+    for (const PointId p : map.keyframes()[id].points) {
+      if (p.valid()) points.push_back(p);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+// Keyframes outside of `free` that see the points, those that see most first.
+std::vector<KeyframeId> holders(const Map& map, const std::vector<KeyframeId>& free,
+                                const std::vector<PointId>& points, int limit) {
+  std::vector<std::pair<int, KeyframeId>> counts;
+  for (const PointId p : points) {
+    for (const Observation& o : map.points()[p].observations) {
+      if (o.keyframe.slot >= counts.size()) counts.resize(o.keyframe.slot + 1);
+      ++counts[o.keyframe.slot].first;
+      counts[o.keyframe.slot].second = o.keyframe;
+    }
+  }
+  for (const KeyframeId id : free) {
+    if (id.slot < counts.size()) counts[id.slot].first = 0;
+  }
+  std::erase_if(counts, [](const auto& c) { return c.first < 3; });
+  std::sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  if (static_cast<int>(counts.size()) > limit) counts.resize(limit);
+  std::vector<KeyframeId> result;
+  for (const auto& [count, id] : counts) result.push_back(id);
+  return result;
+}
+
+}  // namespace
+
+std::string AdjustmentSummary::to_string() const {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%d keyframes, %d points, %d observations (%d wrong): rms %.3f -> %.3f in %d steps",
+                keyframes, points, observations, outliers, initial_rms, final_rms, iterations);
+  return text;
+}
+
+AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
+                                 const std::atomic<bool>* abort) {
+  std::vector<KeyframeId> free = {centre};
+  for (const auto& [id, shared] : map.covisible(centre, 15)) {
+    if (static_cast<int>(free.size()) >= options.window) break;
+    free.push_back(id);
+  }
+  std::erase_if(free, [&](KeyframeId id) { return id == map.first() && id != centre; });
+  std::vector<PointId> points = points_seen_by(map, free);
+  std::vector<KeyframeId> fixed = holders(map, free, points, options.fixed);
+  // The scale of a monocular map hangs on two poses: hold the two oldest where nothing else does.
+  while (fixed.size() < 2 && free.size() > 2) {
+    const auto oldest = std::min_element(free.begin(), free.end(), [&](auto a, auto b) {
+      return map.keyframes()[a].sequence < map.keyframes()[b].sequence;
+    });
+    fixed.push_back(*oldest);
+    free.erase(oldest);
+  }
+  Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points));
+  AdjustmentSummary summary = adjustment.solve(options.local_iterations, abort);
+  if (!summary.usable) return summary;
+  adjustment.write_back();
+  summary.outliers = adjustment.erase_outliers();
+  return summary;
+}
+
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
+                               const std::atomic<bool>* abort) {
+  AdjustmentSummary summary;
+  double initial_rms = 0;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<KeyframeId> free, fixed;
+    map.keyframes().for_each([&](KeyframeId id, const Keyframe&) {
+      (id == map.first() ? fixed : free).push_back(id);
+    });
+    std::vector<PointId> points;
+    map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
+    if (free.empty() || points.empty()) return summary;
+    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points));
+    const int outliers = summary.outliers;
+    summary = adjustment.solve(options.full_iterations, abort);
+    if (round == 0) initial_rms = summary.initial_rms;
+    summary.initial_rms = initial_rms;
+    if (!summary.usable) return summary;
+    adjustment.write_back();
+    summary.outliers = outliers + adjustment.erase_outliers();
+  }
+  return summary;
+}
+
+}  // namespace cairn

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "cairn/map/map.h"
+
+namespace cairn {
+
+struct AdjustmentOptions {
+  int window = 20;            ///< keyframes moved by a local adjustment
+  int fixed = 30;             ///< keyframes that hold it, at most
+  int local_iterations = 8;
+  int full_iterations = 40;
+};
+
+struct AdjustmentSummary {
+  bool usable = false;
+  int keyframes = 0, points = 0, observations = 0, outliers = 0, iterations = 0;
+  double initial_rms = 0, final_rms = 0;  ///< reprojection, in σ, of the robust cost
+  std::string to_string() const;
+};
+
+/// Adjusts the newest keyframes around `centre`, those that share most points with it, and all
+/// points they see; keyframes outside that see the same points are held. Observations beyond the
+/// gate of their χ² are erased from the map afterwards. Stops early when `abort` becomes true; the
+/// map is then as good as the last accepted step.
+AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
+                                 const std::atomic<bool>* abort);
+
+/// Adjusts everything; the first keyframe is held. Runs twice: once with all observations, once
+/// without those that the first run shows to be wrong.
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
+                               const std::atomic<bool>* abort);
+
+}  // namespace cairn

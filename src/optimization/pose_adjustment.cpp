@@ -1,0 +1,97 @@
+#include "cairn/optimization/pose_adjustment.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kGate = 5.991;      // χ², 2 degrees of freedom, 95 %
+constexpr double kMinDepth = 1e-6;
+constexpr int kRounds = 4;
+constexpr int kIterations = 6;
+
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+  int used = 0;
+};
+
+// Weighted residual of one observation in σ; false where the point is not in front of the camera.
+bool residual(const PoseObservation& o, const Pinhole& K, const Eigen::Matrix3d& R_cw,
+              const Eigen::Vector3d& t_cw, Eigen::Vector3d& X_c, Eigen::Vector2d& e) {
+  X_c = R_cw * o.position + t_cw;
+  if (!(X_c.z() > kMinDepth)) return false;
+  e = (K.project(X_c) - o.pixel) / o.sigma;
+  return true;
+}
+
+NormalEquations linearise(std::span<const PoseObservation> observations, const Pinhole& K,
+                          const SE3& T_cw, const std::vector<char>& inlier, bool robust) {
+  NormalEquations n;
+  const Eigen::Matrix3d R = T_cw.matrix3();
+  const double delta = std::sqrt(kGate);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (!inlier[i]) continue;
+    Eigen::Vector3d X;
+    Eigen::Vector2d e;
+    if (!residual(observations[i], K, R, T_cw.translation(), X, e)) continue;
+    const double norm = e.norm();
+    const double w = robust && norm > delta ? delta / norm : 1.0;
+    // T_wc · exp(ξ) moves the point in the camera by -ρ + [X]× ω.
+    const double zi = 1.0 / X.z(), s = 1.0 / observations[i].sigma;
+    const double fx = K.fx * zi * s, fy = K.fy * zi * s;
+    const double x = X.x() * zi, y = X.y() * zi;
+    Eigen::Matrix<double, 2, 6> J;
+    J << -fx, 0, fx * x, fx * x * X.y(), -fx * (X.z() + x * X.x()), fx * X.y(),  //
+        0, -fy, fy * y, fy * (X.z() + y * X.y()), -fy * y * X.x(), -fy * X.x();
+    n.H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose(), w);
+    n.g.noalias() += w * (J.transpose() * e);
+    ++n.used;
+  }
+  n.H = n.H.selfadjointView<Eigen::Lower>();
+  return n;
+}
+
+}  // namespace
+
+PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
+                                  const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier) {
+  PoseAdjustmentSummary summary;
+  inlier.assign(observations.size(), 1);
+  SE3 pose = T_wc;
+  for (int round = 0; round < kRounds; ++round) {
+    const bool robust = round < kRounds - 1;
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      const NormalEquations n = linearise(observations, pinhole, pose.inverse(), inlier, robust);
+      if (n.used < 3) return summary;
+      const Vector6d step = n.H.ldlt().solve(-n.g);
+      if (!step.allFinite()) return summary;
+      pose = pose * SE3::exp(step);
+      if (step.tail<3>().norm() < 1e-7 && step.head<3>().norm() < 1e-8) break;
+    }
+    const SE3 T_cw = pose.inverse();
+    const Eigen::Matrix3d R = T_cw.matrix3();
+    summary.inliers = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      Eigen::Vector3d X;
+      Eigen::Vector2d e;
+      inlier[i] = residual(observations[i], pinhole, R, T_cw.translation(), X, e) &&
+                  e.squaredNorm() < kGate;
+      if (inlier[i]) {
+        ++summary.inliers;
+        sum += e.squaredNorm();
+      }
+    }
+    if (summary.inliers < 3) return summary;
+    summary.rms = std::sqrt(sum / summary.inliers);
+  }
+  summary.usable = pose.is_finite();
+  if (summary.usable) T_wc = pose;
+  return summary;
+}
+
+}  // namespace cairn

@@ -1,0 +1,142 @@
+#include "cairn/system/mapping_schedule.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kCandidates = 8;  // keyframes that a relocalisation looks at
+
+}  // namespace
+
+MappingSchedule::MappingSchedule(std::unique_ptr<Mapper> mapper, const Options& options)
+    : mapper_(std::move(mapper)),
+      tracking_(options.tracking),
+      threaded_(options.pace == Pace::kRealtime),
+      view_(mapper_->view()) {
+  if (threaded_) thread_ = std::thread([this] { loop(); });
+}
+
+MappingSchedule::~MappingSchedule() { stop(); }
+
+void MappingSchedule::insert(KeyframeCandidate candidate, Sighting sighting) {
+  Insertion insertion{std::move(candidate), std::move(sighting)};
+  if (!threaded_) {
+    run_insertion(insertion);
+    mapper_->adjust(nullptr);
+    publish();
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    insertions_.push_back(std::move(insertion));
+    abort_ = true;
+  }
+  wake_.notify_one();
+}
+
+void MappingSchedule::relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed) {
+  Question question{std::move(frame), seed};
+  if (!threaded_) {
+    run_question(question);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    question_ = std::move(question);
+    abort_ = true;
+  }
+  wake_.notify_one();
+}
+
+std::optional<MappingSchedule::Answer> MappingSchedule::take_relocalization() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(answer_, std::nullopt);
+}
+
+bool MappingSchedule::relocalizing() const {
+  const std::lock_guard lock(mutex_);
+  return question_.has_value();
+}
+
+bool MappingSchedule::idle() const {
+  if (!threaded_) return true;
+  const std::lock_guard lock(mutex_);
+  return insertions_.empty() && !busy_;
+}
+
+std::shared_ptr<const MapView> MappingSchedule::view() const {
+  const std::lock_guard lock(mutex_);
+  return view_;
+}
+
+Mapper& MappingSchedule::stop() {
+  if (thread_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+  }
+  return *mapper_;
+}
+
+void MappingSchedule::publish() {
+  const std::lock_guard lock(mutex_);
+  view_ = mapper_->view();
+}
+
+void MappingSchedule::run_insertion(const Insertion& insertion) {
+  mapper_->count_visible(insertion.sighting.visible, insertion.sighting.found);
+  mapper_->insert(insertion.candidate);
+  publish();
+}
+
+void MappingSchedule::run_question(const Question& question) {
+  std::vector<KeyframeId> candidates;
+  const Map& map = mapper_->map();
+  for (const auto& match : mapper_->retrieval().query(question.frame->features, kCandidates)) {
+    candidates.push_back(mapper_->keyframe_in_slot(match.id));
+  }
+  Answer answer{question.frame, cairn::relocalize(*question.frame, map, candidates, tracking_,
+                                                  question.seed)};
+  const std::lock_guard lock(mutex_);
+  answer_ = std::move(answer);
+  question_.reset();
+}
+
+void MappingSchedule::loop() {
+  bool adjustment_due = false;
+  while (true) {
+    std::optional<Insertion> insertion;
+    std::optional<Question> question;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] {
+        return stopping_ || adjustment_due || question_.has_value() || !insertions_.empty();
+      });
+      if (stopping_ && insertions_.empty() && !adjustment_due) return;
+      busy_ = true;
+      abort_ = false;
+      if (!insertions_.empty()) {
+        insertion = std::move(insertions_.front());
+        insertions_.pop_front();
+      } else if (question_ && !stopping_) {
+        question = *question_;
+      }
+    }
+    if (insertion) {
+      run_insertion(*insertion);
+      adjustment_due = true;
+    } else if (question) {
+      run_question(*question);
+    } else if (adjustment_due) {
+      mapper_->adjust(&abort_);
+      publish();
+      adjustment_due = false;
+    }
+    const std::lock_guard lock(mutex_);
+    busy_ = false;
+  }
+}
+
+}  // namespace cairn

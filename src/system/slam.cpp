@@ -1,0 +1,245 @@
+#include "cairn/system/slam.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <limits>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "cairn/system/frame_log.h"
+#include "cairn/system/mapping_schedule.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kYoungMap = 4.0;      // seconds: a map lost so early is not worth going back to
+constexpr int kRestartAfter = 8;       // lost frames, before a young map is given up
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+struct Slam::Implementation {
+  Implementation(const Camera& camera, const Options& options)
+      : options(options),
+        view(camera, options.features.levels, options.features.scale),
+        undistorter(camera),
+        extractor(options.features),
+        initializer(view, options.initialization, options.seed),
+        tracker(view, options.tracking) {
+    if (options.threads > 0) {
+      threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+    }
+  }
+
+  std::shared_ptr<const Frame> make_frame(const cv::Mat& picture, double timestamp);
+  void initialise(std::shared_ptr<const Frame> frame, FrameRecord& record);
+  bool track(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
+  void lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
+  bool recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
+  void hand_over_keyframe();
+  void restart();
+  std::vector<PointId> mapped_points() const;
+
+  Options options;
+  View view;
+  Undistorter undistorter;
+  OrbExtractor extractor;
+  Initializer initializer;
+  Tracker tracker;
+  std::optional<tbb::global_control> threads;
+  std::unique_ptr<MappingSchedule> mapping;  // once there is a map
+  MappingSchedule::Sighting sighting;
+  FrameLog log;
+  bool lost = false;
+  int lost_frames = 0;
+  double map_started = 0;
+  int restarts = 0;
+  std::vector<SlamResult::Gap> gaps;
+  std::vector<FrameRecord> records;
+};
+
+Slam::Slam(const Camera& camera, const Options& options)
+    : implementation_(std::make_unique<Implementation>(camera, options)) {}
+Slam::~Slam() = default;
+
+const std::vector<FrameRecord>& Slam::frames() const { return implementation_->records; }
+
+void Slam::drop(double timestamp) {
+  implementation_->records.push_back({.timestamp = timestamp, .state = FrameState::kDropped});
+}
+
+void Slam::skip(double timestamp) {
+  implementation_->records.push_back({.timestamp = timestamp, .state = FrameState::kSkipped});
+}
+
+std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& picture,
+                                                              double timestamp) {
+  auto frame = std::make_shared<Frame>();
+  frame->timestamp = timestamp;
+  cv::Mat grey = picture;
+  if (picture.channels() == 3) cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+  extractor.extract(grey, frame->features);
+  undistorter.apply(frame->features, [&](float x, float y) {
+    const int c = std::clamp(static_cast<int>(std::lround(x)), 0, picture.cols - 1);
+    const int r = std::clamp(static_cast<int>(std::lround(y)), 0, picture.rows - 1);
+    if (picture.channels() == 1) {
+      frame->colours.push_back(
+          Eigen::Matrix<unsigned char, 3, 1>::Constant(picture.at<unsigned char>(r, c)));
+    } else {
+      const cv::Vec3b bgr = picture.at<cv::Vec3b>(r, c);
+      frame->colours.emplace_back(bgr[2], bgr[1], bgr[0]);
+    }
+  });
+  frame->index(view);
+  return frame;
+}
+
+FrameResult Slam::process(const cv::Mat& picture, double timestamp) {
+  Implementation& s = *implementation_;
+  const auto start = std::chrono::steady_clock::now();
+  FrameResult result;
+  FrameRecord& record = result.record;
+  record.timestamp = timestamp;
+  const std::shared_ptr<const Frame> frame = s.make_frame(picture, timestamp);
+  record.extract_ms = milliseconds_since(start);
+  double mapping_ms = 0;
+  if (!s.mapping) {
+    s.initialise(frame, record);
+  } else if (s.lost ? s.recover(frame, record) : s.track(frame, record)) {
+    record.state = FrameState::kTracked;
+    result.T_wc = s.tracker.last().T_wc;
+    s.log.add(timestamp, s.tracker.last().reference, s.tracker.last().T_rc, *result.T_wc);
+    if (!s.lost && s.tracker.wants_keyframe(s.mapping->idle())) {
+      record.keyframe = true;
+      const auto before = std::chrono::steady_clock::now();
+      s.hand_over_keyframe();
+      mapping_ms = milliseconds_since(before);
+    }
+  } else {
+    s.lose(frame, record);
+  }
+  record.total_ms = milliseconds_since(start) - mapping_ms;
+  if (record.state == FrameState::kTracked || record.keyframe) {
+    const TrackedFrame& tracked = s.tracker.last();
+    for (std::size_t i = 0; i < tracked.frame->size(); ++i) {
+      const Keypoint& kp = tracked.frame->features.keypoints[i];
+      result.features.push_back({kp.x, kp.y, i < tracked.points.size() && tracked.points[i].valid()});
+    }
+  } else {
+    for (const Keypoint& kp : frame->features.keypoints) result.features.push_back({kp.x, kp.y, false});
+  }
+  s.records.push_back(record);
+  return result;
+}
+
+void Slam::Implementation::initialise(std::shared_ptr<const Frame> frame, FrameRecord& record) {
+  const auto start = std::chrono::steady_clock::now();
+  record.state = FrameState::kInitialising;
+  const std::optional<InitialPair> pair = initializer.add(frame);
+  record.predict_ms = milliseconds_since(start);
+  if (!pair) return;
+  auto mapper = std::make_unique<Mapper>(view, options.mapping);
+  if (!mapper->initialize(*pair)) return;
+  const std::shared_ptr<const MapView> map_view = mapper->view();
+  mapping = std::make_unique<MappingSchedule>(std::move(mapper), options);
+  map_started = frame->timestamp;
+  std::vector<PointId> points(frame->size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::uint32_t p = map_view->reference_points[i];
+    if (p != MapView::kNone) points[i] = map_view->points[p].id;
+  }
+  const SE3 T_wc = map_view->pose_of(map_view->reference).value();
+  tracker.start_from(frame, T_wc, map_view, points);
+  log.add(frame->timestamp, map_view->reference, SE3(), T_wc);
+  record.state = FrameState::kTracked;
+  record.keyframe = true;
+  record.matches = record.inliers = static_cast<int>(map_view->points.size());
+  spdlog::info("map initialised at {:.3f} s with {} points", frame->timestamp,
+               map_view->points.size());
+}
+
+bool Slam::Implementation::track(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
+  const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record);
+  if (tracked == nullptr) return false;
+  sighting.visible.insert(sighting.visible.end(), tracked->visible.begin(), tracked->visible.end());
+  for (const PointId p : tracked->points) {
+    if (p.valid()) sighting.found.push_back(p);
+  }
+  return true;
+}
+
+void Slam::Implementation::hand_over_keyframe() {
+  const TrackedFrame& t = tracker.last();
+  KeyframeCandidate candidate{t.frame, t.reference, t.T_rc, t.points};
+  tracker.keyframe_made();
+  mapping->insert(std::move(candidate), std::move(sighting));
+  sighting = {};
+}
+
+void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
+  record.state = FrameState::kLost;
+  if (!lost) {
+    spdlog::info("lost at {:.3f} s", frame->timestamp);
+    gaps.push_back({frame->timestamp, std::numeric_limits<double>::quiet_NaN()});
+    lost = true;
+    lost_frames = 0;
+  }
+  ++lost_frames;
+  if (lost_frames >= kRestartAfter && gaps.back().lost - map_started < kYoungMap) restart();
+}
+
+// A lost frame: asks where it is; goes on from the answer once there is one.
+bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
+  const auto start = std::chrono::steady_clock::now();
+  if (!mapping->relocalizing()) mapping->relocalize(frame, options.seed + records.size());
+  const std::optional<MappingSchedule::Answer> answer = mapping->take_relocalization();
+  record.predict_ms = milliseconds_since(start);
+  if (!answer || !answer->found) return false;
+  tracker.start_from(answer->frame, answer->found->T_wc, answer->found->view, answer->found->points);
+  record.inliers = record.matches = answer->found->inliers;
+  // In realtime the answer is for an earlier frame: the present one is tracked from there.
+  if (answer->frame != frame && !track(frame, record)) return false;
+  lost = false;
+  gaps.back().recovered = frame->timestamp;
+  spdlog::info("found again at {:.3f} s with {} points", frame->timestamp, record.inliers);
+  return true;
+}
+
+void Slam::Implementation::restart() {
+  spdlog::info("the map was lost within {:.0f} s of its start: starting again", kYoungMap);
+  mapping.reset();
+  initializer.reset();
+  log = {};
+  sighting = {};
+  lost = false;
+  ++restarts;
+}
+
+SlamResult Slam::finish() {
+  Implementation& s = *implementation_;
+  SlamResult result;
+  result.gaps = s.gaps;
+  result.restarts = s.restarts;
+  if (!s.mapping) {
+    result.refusal = s.initializer.refusal();
+    return result;
+  }
+  Mapper& mapper = s.mapping->stop();
+  const AdjustmentSummary summary = mapper.finish(nullptr);
+  spdlog::info("full adjustment: {}", summary.to_string());
+  const Map& map = mapper.map();
+  result.trajectory = s.log.final_trajectory(map, mapper.buried());
+  result.trajectory_live = s.log.live_trajectory();
+  result.keyframes = keyframe_trajectory(map);
+  map.points().for_each([&](PointId, const MapPoint& p) {
+    result.points.push_back({p.position, p.colour, static_cast<int>(p.observations.size())});
+  });
+  return result;
+}
+
+}  // namespace cairn

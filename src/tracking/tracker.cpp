@@ -1,0 +1,214 @@
+#include "cairn/tracking/tracker.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace cairn {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Milliseconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
+    start_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+constexpr int kMinMatches = 20;         // of the motion model, before a wider search
+constexpr int kCautiousFrames = 3;      // after a (re)start, search wider
+constexpr double kFrontalCosine = 0.998;
+
+}  // namespace
+
+Tracker::Tracker(const View& view, const TrackingOptions& options)
+    : view_(view), options_(options) {}
+
+void Tracker::start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
+                         const std::shared_ptr<const MapView>& view,
+                         const std::vector<PointId>& points) {
+  map_ = view;
+  last_ = {};
+  last_.frame = std::move(frame);
+  last_.T_wc = T_wc;
+  last_.reference = view->reference;
+  last_.T_rc = view->pose_of(view->reference).value().inverse() * T_wc;
+  last_.points = points;
+  last_points_.clear();
+  for (const PointId id : points) last_points_.push_back(id.valid() ? view->index_of(id) : kNoPoint);
+  has_velocity_ = false;
+  frames_since_start_ = 0;
+  keyframe_made();
+}
+
+void Tracker::keyframe_made() {
+  frames_since_keyframe_ = 0;
+  last_keyframe_time_ = last_.frame->timestamp;
+}
+
+// A new view: the last frame moves with its reference keyframe, its points get new indices.
+void Tracker::adopt_view(const std::shared_ptr<const MapView>& view) {
+  if (map_ == view) return;
+  map_ = view;
+  if (const auto T_wr = view->pose_of(last_.reference)) last_.T_wc = *T_wr * last_.T_rc;
+  for (std::size_t i = 0; i < last_.points.size(); ++i) {
+    last_points_[i] = last_.points[i].valid() ? view->index_of(last_.points[i]) : kNoPoint;
+  }
+}
+
+SE3 Tracker::predict(double timestamp) const {
+  if (!has_velocity_) return last_.T_wc;
+  const double dt = timestamp - last_.frame->timestamp;
+  if (std::abs(dt - velocity_seconds_) < 1e-3) return last_.T_wc * velocity_;
+  return last_.T_wc * SE3::exp(velocity_.log() * (dt / velocity_seconds_));
+}
+
+const TrackedFrame* Tracker::track(std::shared_ptr<const Frame> frame,
+                                   const std::shared_ptr<const MapView>& view,
+                                   FrameRecord& record) {
+  Stopwatch watch;
+  adopt_view(view);
+  SE3 T_wc = predict(frame->timestamp);
+  bool ok = track_motion(*frame, T_wc);
+  if (!ok) {
+    T_wc = last_.T_wc;
+    ok = track_reference(*frame, T_wc);
+  }
+  record.predict_ms = watch.lap();
+  if (ok) ok = track_local_map(*frame, T_wc);
+  record.matches = static_cast<int>(observations_.size());
+  record.inliers = static_cast<int>(std::count(inlier_.begin(), inlier_.end(), 1));
+  record.local_map_ms = watch.lap();
+  if (!ok) return nullptr;
+
+  has_velocity_ = true;
+  velocity_ = last_.T_wc.inverse() * T_wc;
+  velocity_seconds_ = std::max(frame->timestamp - last_.frame->timestamp, 1e-6);
+  ++frames_since_start_;
+  ++frames_since_keyframe_;
+  last_.frame = std::move(frame);
+  last_.T_wc = T_wc;
+  last_.reference = map_->reference;
+  last_.T_rc = map_->pose_of(map_->reference).value().inverse() * T_wc;
+  last_.matches = record.matches;
+  last_.inliers = record.inliers;
+  last_points_ = current_points_;
+  last_.points.assign(last_points_.size(), {});
+  for (std::size_t i = 0; i < last_points_.size(); ++i) {
+    if (last_points_[i] != kNoPoint) last_.points[i] = map_->points[last_points_[i]].id;
+  }
+  return &last_;
+}
+
+// Constant velocity: the points of the last frame are looked for where the motion puts them.
+bool Tracker::track_motion(const Frame& frame, SE3& T_wc) {
+  const SE3 T_cw = T_wc.inverse();
+  for (const double widen : {1.0, 2.5}) {
+    expected_.clear();
+    for (std::size_t i = 0; i < last_points_.size(); ++i) {
+      const std::uint32_t index = last_points_[i];
+      if (index == kNoPoint) continue;
+      const MapView::Point& p = map_->points[index];
+      const Eigen::Vector3d X = T_cw * p.position;
+      if (!(X.z() > 0)) continue;
+      const Eigen::Vector2d uv = view_.pinhole().project(X);
+      if (!view_.contains(uv)) continue;
+      const int octave = last_.frame->octave(i);
+      const double radius = widen * options_.search_radius * std::sqrt(view_.sigma(octave));
+      expected_.push_back({index, uv.cast<float>(), static_cast<float>(radius),
+                           static_cast<std::int16_t>(octave - 1),
+                           static_cast<std::int16_t>(octave + 1), &p.descriptor});
+    }
+    current_points_.assign(frame.size(), kNoPoint);
+    if (search_by_projection(frame, expected_, {80, 0.9}, current_points_) >= kMinMatches) break;
+  }
+  SE3 pose = T_wc;
+  if (adjust(frame, pose) < options_.min_prediction_inliers) return false;
+  T_wc = pose;
+  return true;
+}
+
+// No usable motion: all points of the reference keyframe are compared by descriptor.
+bool Tracker::track_reference(const Frame& frame, SE3& T_wc) {
+  const Frame& reference = *map_->reference_frame;
+  current_points_.assign(frame.size(), kNoPoint);
+  MatchOptions match_options;
+  for (const auto& m : match_mutual(reference.features, frame.features, match_options)) {
+    const std::uint32_t point = map_->reference_points[m.first];
+    if (point != kNoPoint) current_points_[m.second] = point;
+  }
+  for (const SE3& start : {T_wc, map_->pose_of(map_->reference).value()}) {
+    SE3 pose = start;
+    const std::vector<std::uint32_t> matched = current_points_;
+    if (adjust(frame, pose) >= options_.min_prediction_inliers) {
+      T_wc = pose;
+      return true;
+    }
+    current_points_ = matched;
+  }
+  return false;
+}
+
+bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
+  const SE3 T_cw = T_wc.inverse();
+  const Eigen::Vector3d camera = T_wc.translation();
+  seen_.assign(map_->points.size(), 0);
+  for (const std::uint32_t p : current_points_) {
+    if (p != kNoPoint) seen_[p] = 1;
+  }
+  expected_.clear();
+  last_.visible.clear();
+  const double widen = frames_since_start_ < kCautiousFrames ? 2.0 : 1.0;
+  for (std::uint32_t i = 0; i < map_->points.size(); ++i) {
+    const MapView::Point& p = map_->points[i];
+    if (seen_[i]) {
+      last_.visible.push_back(p.id);
+      continue;
+    }
+    const Visibility v =
+        predict_visibility(view_, T_cw, camera, p.position, p.normal, p.base_distance);
+    if (!v.visible) continue;
+    last_.visible.push_back(p.id);
+    const double radius =
+        widen * (v.cosine > kFrontalCosine ? 2.5 : 4.0) * view_.sigma(v.octave);
+    expected_.push_back({i, v.pixel.cast<float>(), static_cast<float>(radius),
+                         static_cast<std::int16_t>(v.octave - 1),
+                         static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
+  }
+  search_by_projection(frame, expected_, {100, 0.8}, current_points_);
+  return adjust(frame, T_wc) >= options_.min_inliers;
+}
+
+// Motion-only adjustment of the current matches; those that do not agree are let go.
+int Tracker::adjust(const Frame& frame, SE3& T_wc) {
+  observations_.clear();
+  observed_keypoints_.clear();
+  for (std::uint32_t i = 0; i < current_points_.size(); ++i) {
+    if (current_points_[i] == kNoPoint) continue;
+    observations_.push_back({map_->points[current_points_[i]].position, frame.pixel(i),
+                             view_.sigma(frame.octave(i))});
+    observed_keypoints_.push_back(i);
+  }
+  const PoseAdjustmentSummary summary =
+      adjust_pose(observations_, view_.pinhole(), T_wc, inlier_);
+  for (std::size_t k = 0; k < observed_keypoints_.size(); ++k) {
+    if (!inlier_[k]) current_points_[observed_keypoints_[k]] = kNoPoint;
+  }
+  return summary.usable ? summary.inliers : 0;
+}
+
+bool Tracker::wants_keyframe(bool mapper_idle) const {
+  const bool long_ago =
+      last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
+  const bool weak = last_.inliers < options_.keyframe_ratio * map_->reference_tracked;
+  const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
+  if (last_.inliers < 15) return false;
+  return (mapper_idle && (weak || long_ago)) || very_weak;
+}
+
+}  // namespace cairn

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cairn/map/frame_record.h"
+#include "cairn/map/map_view.h"
+#include "cairn/optimization/pose_adjustment.h"
+#include "cairn/tracking/projection_search.h"
+
+namespace cairn {
+
+struct TrackingOptions {
+  int min_inliers = 30;            ///< points that must agree with a pose
+  int min_prediction_inliers = 12; ///< points of the last frame that must agree with the prediction
+  double search_radius = 15;       ///< pixels around the prediction of the motion model
+  int max_local_points = 4000;     ///< points of the map that a frame is compared with
+  double keyframe_ratio = 0.9;     ///< a new keyframe when fewer of the reference's points are seen
+  double max_keyframe_gap = 1.0;   ///< seconds without a keyframe
+  int max_initial_frames = 60;     ///< frames that the first picture waits for a second view
+};
+
+/// What the tracker found out about one frame.
+struct TrackedFrame {
+  std::shared_ptr<const Frame> frame;
+  SE3 T_wc;
+  KeyframeId reference;   ///< keyframe that carries the frame
+  SE3 T_rc;               ///< camera to reference keyframe
+  std::vector<PointId> points;  ///< one a keypoint: inliers
+  std::vector<PointId> visible; ///< points that should have been seen
+  int matches = 0, inliers = 0;
+};
+
+/// Follows the camera from frame to frame. Single-threaded; holds no map, only the last frame.
+class Tracker {
+ public:
+  Tracker(const View& view, const TrackingOptions& options);
+
+  /// The pose of a frame, or nothing if the map was lost. `view` is the newest there is. Fills the
+  /// stage times of `record`.
+  const TrackedFrame* track(std::shared_ptr<const Frame> frame,
+                            const std::shared_ptr<const MapView>& view, FrameRecord& record);
+
+  /// Tracking goes on from a frame whose pose is known (initialisation, relocalisation).
+  void start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
+                  const std::shared_ptr<const MapView>& view, const std::vector<PointId>& points);
+
+  /// Is the frame that was tracked last worth a keyframe? `mapper_idle`: it could be taken at once.
+  bool wants_keyframe(bool mapper_idle) const;
+  /// The last frame has become a keyframe.
+  void keyframe_made();
+
+  const TrackedFrame& last() const { return last_; }
+
+ private:
+  void adopt_view(const std::shared_ptr<const MapView>& view);
+  SE3 predict(double timestamp) const;
+  bool track_motion(const Frame& frame, SE3& T_wc);
+  bool track_reference(const Frame& frame, SE3& T_wc);
+  bool track_local_map(const Frame& frame, SE3& T_wc);
+  int adjust(const Frame& frame, SE3& T_wc);
+
+  View view_;
+  TrackingOptions options_;
+  std::shared_ptr<const MapView> map_;
+  TrackedFrame last_;
+  std::vector<std::uint32_t> last_points_;  // a keypoint of the last frame: index into map_->points
+  SE3 velocity_;                            // motion of the camera in one frame, in its own frame
+  double velocity_seconds_ = 0;
+  bool has_velocity_ = false;
+  int frames_since_start_ = 0;
+  int frames_since_keyframe_ = 0;
+  double last_keyframe_time_ = 0;
+  int keyframe_tracked_ = 0;
+
+  // Reused between frames.
+  std::vector<std::uint32_t> current_points_;
+  std::vector<ExpectedPoint> expected_;
+  std::vector<PoseObservation> observations_;
+  std::vector<std::uint32_t> observed_keypoints_;
+  std::vector<char> inlier_;
+  std::vector<char> seen_;
+};
+
+}  // namespace cairn
