@@ -11,7 +11,8 @@
 namespace cairn {
 namespace {
 
-constexpr int kBlock = 32;  // pixels scored together: one AVX2 register
+constexpr int kBlock = 32;        // pixels scored together: one AVX2 register
+constexpr int kNarrowBlock = 16;  // where few are needed
 
 // The circle of radius 3, clockwise from the top.
 constexpr std::array<std::pair<int, int>, 16> kCircle = {{{0, -3},
@@ -84,10 +85,11 @@ CAIRN_INLINE bool may_hold_corner(const Byte* center, const Circle& circle, Byte
   return best > threshold;
 }
 
+template <int size>
 CAIRN_INLINE void score_block(const Byte* __restrict center, const Circle& circle,
                               Byte* __restrict score) {
   const auto& o = circle.offset;
-  for (int i = 0; i < kBlock; ++i) {
+  for (int i = 0; i < size; ++i) {
     const Byte* const q = center + i;
     const Byte c = *q;
     const Byte bright =
@@ -107,7 +109,7 @@ bool score_row(const Byte* row, const Circle& circle, int width, Byte threshold,
   bool any = false;
   for (int x = 0; x < width; x += kBlock) {
     if (may_hold_corner(row + x, circle, threshold)) {
-      score_block(row + x, circle, score + x);
+      score_block<kBlock>(row + x, circle, score + x);
       any = true;
     } else {
       std::memset(score + x, 0, kBlock);
@@ -125,6 +127,13 @@ void suppress_row(const Byte* __restrict above, const Byte* __restrict row,
     const Byte after = most(most(below[x - 1], below[x]), most(below[x + 1], row[x + 1]));
     const Byte score = row[x];
     kept[x] = most(before, threshold) < score && after <= score ? score : 0;
+  }
+}
+
+CAIRN_MULTIVERSION
+void score_three_rows(const Byte* first, const Circle& circle, std::ptrdiff_t step, Byte* scores) {
+  for (int row = 0; row < 3; ++row) {
+    score_block<kNarrowBlock>(first + row * step, circle, scores + row * kNarrowBlock);
   }
 }
 
@@ -169,6 +178,14 @@ void FastDetector::detect(const cv::Mat& image, int first_row, int last_row, int
     suppress_row(rows[(y - 1) % 3], rows[y % 3], rows[(y + 1) % 3], width, weakest, kept);
     append_kept(kept, width, margin, y - 1, corners);
   }
+}
+
+std::array<std::uint8_t, 9> fast_contrast_3x3(const std::uint8_t* center, std::ptrdiff_t step) {
+  std::array<Byte, 3 * kNarrowBlock> scores;
+  score_three_rows(center - step - 1, Circle(step), step, scores.data());
+  std::array<Byte, 9> contrast;
+  for (int i = 0; i < 9; ++i) contrast[i] = scores[i / 3 * kNarrowBlock + i % 3];
+  return contrast;
 }
 
 }  // namespace cairn

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -32,5 +34,9 @@ class FastDetector {
  private:
   std::vector<std::uint8_t> buffer_;
 };
+
+/// FAST's score plus one, below any threshold too, of the 3x3 pixels around `center`, row by row.
+/// Reads up to 19 pixels to the right. `step`: bytes a row.
+std::array<std::uint8_t, 9> fast_contrast_3x3(const std::uint8_t* center, std::ptrdiff_t step);
 
 }  // namespace cairn

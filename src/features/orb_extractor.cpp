@@ -138,7 +138,7 @@ void OrbExtractor::Buffers::describe_one(int level, const FastCorner& corner, bo
   const auto step = static_cast<std::ptrdiff_t>(image.step);
   const Orientation orientation = intensity_centroid(center, step);
   cv::Point2f point(corner.x, corner.y);
-  if (subpixel) point += refine_corner(center, step);
+  if (subpixel) point += peak_offset(fast_contrast_3x3(center, step));
   const cv::Point2f base = pyramid.to_base(point, level);
   keypoint = {base.x, base.y, angle_of(orientation), static_cast<float>(corner.score), level};
   descriptor = cairn::describe(blurred[level].ptr(corner.y) + corner.x,

@@ -1,69 +1,44 @@
 #include "cairn/features/subpixel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "cairn/features/multiversion.h"
 
 namespace cairn {
 namespace {
 
-constexpr int kRadius = 3;
-constexpr int kSide = 8;  // one more than the window has, without weight: a whole register
+constexpr float kFarthest = 0.75F;
 
-/// Integer sums over the window of weighted products of gradients, and of those with x and y.
-struct GradientMoments {
-  std::int32_t xx = 0, xy = 0, yy = 0, x = 0, y = 0;
-};
-
-struct Window {
-  alignas(32) std::array<std::array<std::int16_t, kSide>, 2 * kRadius + 1> weight = {};
-
-  Window() {
-    for (int v = -kRadius; v <= kRadius; ++v) {
-      for (int u = -kRadius; u <= kRadius; ++u) {
-        weight[v + kRadius][u + kRadius] =
-            static_cast<std::int16_t>(std::lround(16 * std::exp(-(u * u + v * v) / 8.0)));
-      }
-    }
-  }
-};
-
-CAIRN_MULTIVERSION
-GradientMoments gradient_moments(const std::uint8_t* center, std::ptrdiff_t step,
-                                 const Window& window) {
-  GradientMoments sum;
-  for (int v = -kRadius; v <= kRadius; ++v) {
-    const std::uint8_t* const row = center + v * step - kRadius;
-    for (int i = 0; i < kSide; ++i) {
-      const std::int32_t gx = row[i + 1] - row[i - 1];
-      const std::int32_t gy = row[i + step] - row[i - step];
-      const std::int32_t weight = window.weight[v + kRadius][i];
-      const std::int32_t xx = weight * gx * gx, xy = weight * gx * gy, yy = weight * gy * gy;
-      sum.xx += xx;
-      sum.xy += xy;
-      sum.yy += yy;
-      sum.x += xx * (i - kRadius) + xy * v;
-      sum.y += xy * (i - kRadius) + yy * v;
-    }
-  }
-  return sum;
+float parabola_peak(float before, float at, float after) {
+  const float curvature = before - 2 * at + after;
+  if (curvature >= 0) return 0;
+  return std::clamp((before - after) / (2 * curvature), -0.5F, 0.5F);
 }
 
 }  // namespace
 
-cv::Point2f refine_corner(const std::uint8_t* center, std::ptrdiff_t step) {
-  static const Window window;
-  const GradientMoments sum = gradient_moments(center, step, window);
-  const double xx = sum.xx, xy = sum.xy, yy = sum.yy;
-  const double determinant = xx * yy - xy * xy, trace = xx + yy;
-  // A ratio of eigenvalues of about 30: beyond, the corner may slide along an edge.
-  if (determinant * 32 < trace * trace) return {0, 0};
-  const double x = (yy * sum.x - xy * sum.y) / determinant;
-  const double y = (xx * sum.y - xy * sum.x) / determinant;
-  if (std::abs(x) > 1 || std::abs(y) > 1) return {0, 0};
-  return {static_cast<float>(x), static_cast<float>(y)};
+cv::Point2f peak_offset(const std::array<std::uint8_t, 9>& response) {
+  const auto r = [&](int column, int row) {
+    return static_cast<float>(response[row * 3 + column]);
+  };
+  // Least squares over the nine responses; all sums are small integers, thus exact.
+  float dx = 0, dy = 0, dxx = 0, dyy = 0;
+  for (int i = 0; i < 3; ++i) {
+    dx += r(2, i) - r(0, i);
+    dy += r(i, 2) - r(i, 0);
+    dxx += r(2, i) - 2 * r(1, i) + r(0, i);
+    dyy += r(i, 2) - 2 * r(i, 1) + r(i, 0);
+  }
+  // In units of one sixth of a grey level.
+  dxx *= 2;
+  dyy *= 2;
+  const float dxy = (r(2, 2) + r(0, 0) - r(0, 2) - r(2, 0)) * 6 / 4;
+  const float determinant = dxx * dyy - dxy * dxy;
+  if (dxx < 0 && determinant > 0) {
+    const float x = (dxy * dy - dyy * dx) / determinant;
+    const float y = (dxy * dx - dxx * dy) / determinant;
+    if (std::abs(x) <= kFarthest && std::abs(y) <= kFarthest) return {x, y};
+  }
+  return {parabola_peak(r(0, 1), r(1, 1), r(2, 1)), parabola_peak(r(1, 0), r(1, 1), r(1, 2))};
 }
 
 }  // namespace cairn

