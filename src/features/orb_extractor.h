@@ -8,23 +8,26 @@
 namespace cairn {
 
 struct OrbOptions {
-  int count = 1000;          ///< keypoints a picture, about
-  int levels = 8;            ///< pyramid levels
-  double scale = 1.2;        ///< size ratio between levels
-  int threshold = 20;        ///< FAST: grey-level difference of a good corner
-  int weak_threshold = 7;    ///< FAST: accepted where a region has no good corner
+  int count = 1000;        ///< keypoints a picture, about
+  int levels = 8;          ///< pyramid levels
+  double scale = 1.2;      ///< size ratio between levels
+  int threshold = 20;      ///< FAST: grey-level difference of a good corner
+  int weak_threshold = 7;  ///< FAST: accepted where a region has no good corner
+  bool subpixel = true;    ///< refine positions below the pixel
 };
 
 /// Extracts ORB features (Rublee et al. 2011): FAST corners over an image pyramid, spread over the
 /// picture, oriented by the intensity centroid, described by rotated BRIEF. The result depends on
-/// the picture and the options alone, not on the number of threads. Not for concurrent use: buffers
-/// are kept between calls.
+/// the picture and the options alone, not on the number of threads (all that the caller's TBB arena
+/// or global_control grants). Descriptors are those of cv::ORB at the same place and angle. Not for
+/// concurrent use: buffers are kept between calls.
 class OrbExtractor {
  public:
   explicit OrbExtractor(const OrbOptions& options);
   ~OrbExtractor();
 
-  /// `grey`: CV_8UC1, at least 64x64. `features` is overwritten, its memory reused.
+  /// `grey`: CV_8UC1, at least 64x64 (smaller ones have no features). `features` is overwritten,
+  /// its memory reused; keypoints come level by level, finest first.
   void extract(const cv::Mat& grey, Features& features);
 
   const OrbOptions& options() const { return options_; }
