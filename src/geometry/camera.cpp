@@ -70,7 +70,9 @@ Camera::Camera(Model model, int width, int height, const Pinhole& intrinsics,
       height_(height),
       intrinsics_(intrinsics),
       distortion_(distortion) {
-  auto refuse = [](const std::string& why) { throw Error(Error::Kind::kUsage, "calibration: " + why); };
+  auto refuse = [](const std::string& why) {
+    throw Error(Error::Kind::kUsage, "calibration: " + why);
+  };
   const auto& [fx, fy, cx, cy] = intrinsics;
   auto number = [](double v) {
     char text[32];
