@@ -89,9 +89,4 @@ void Undistorter::apply(Features& features,
   features.descriptors.resize(kept);
 }
 
-void Frame::index(const View& view) {
-  grid.build(features.keypoints, static_cast<float>(view.min_x()), static_cast<float>(view.min_y()),
-             static_cast<float>(view.max_x()), static_cast<float>(view.max_y()));
-}
-
 }  // namespace cairn

@@ -47,9 +47,6 @@ struct Frame {
   KeypointGrid grid;
   std::vector<Eigen::Matrix<unsigned char, 3, 1>> colours;  ///< RGB a keypoint
 
-  /// Builds the grid; to be called once the features are in place.
-  void index(const View& view);
-
   std::size_t size() const { return features.size(); }
   Eigen::Vector2d pixel(std::size_t i) const {
     return {features.keypoints[i].x, features.keypoints[i].y};

@@ -1,10 +1,8 @@
 #include "cairn/mapping/point_creation.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
-#include "cairn/features/matching.h"
+#include "cairn/geometry/triangulation.h"
 
 namespace cairn {
 namespace {
@@ -20,24 +18,9 @@ struct Eye {
   const Keyframe& keyframe;
   const Frame& frame;
   SE3 T_cw;
-  Eigen::Matrix<double, 3, 4> P;  // normalised: no intrinsics
 
-  explicit Eye(const Keyframe& k) : keyframe(k), frame(*k.frame), T_cw(k.T_wc.inverse()) {
-    P.leftCols<3>() = T_cw.matrix3();
-    P.col(3) = T_cw.translation();
-  }
+  explicit Eye(const Keyframe& k) : keyframe(k), frame(*k.frame), T_cw(k.T_wc.inverse()) {}
 };
-
-Eigen::Vector3d triangulate(const Eye& a, const Eye& b, const Eigen::Vector3d& ray_a,
-                            const Eigen::Vector3d& ray_b) {
-  Eigen::Matrix4d A;  // Hartley and Zisserman, 12.2
-  A.row(0) = ray_a.x() * a.P.row(2) - a.P.row(0);
-  A.row(1) = ray_a.y() * a.P.row(2) - a.P.row(1);
-  A.row(2) = ray_b.x() * b.P.row(2) - b.P.row(0);
-  A.row(3) = ray_b.y() * b.P.row(2) - b.P.row(1);
-  const Eigen::Matrix3d N = A.leftCols<3>().transpose() * A.leftCols<3>();
-  return N.ldlt().solve(-A.leftCols<3>().transpose() * A.col(3));
-}
 
 bool reprojects(const View& view, const Eye& eye, const Eigen::Vector3d& X_w,
                 std::uint32_t keypoint) {
@@ -52,13 +35,14 @@ class PairMatcher {
  public:
   PairMatcher(Map& map, KeyframeId id1, KeyframeId id2, double min_parallax_deg)
       : map_(map), id1_(id1), id2_(id2), a_(map.keyframes()[id1]), b_(map.keyframes()[id2]),
-        max_cosine_(std::cos(min_parallax_deg * M_PI / 180)) {
+        min_parallax_(min_parallax_deg * M_PI / 180) {
     const SE3 T_21 = b_.T_cw * a_.T_cw.inverse();
     const Pinhole& K = map.view().pinhole();
     Eigen::Matrix3d K_inv;
     K_inv << 1 / K.fx, 0, -K.cx / K.fx, 0, 1 / K.fy, -K.cy / K.fy, 0, 0, 1;
     F_ = K_inv.transpose() * skew(T_21.translation()) * T_21.matrix3() * K_inv;
-    R_12_ = T_21.matrix3().transpose();
+    R_21_ = T_21.matrix3();
+    t_21_ = T_21.translation();
   }
 
   void run(std::vector<PointId>& created) {
@@ -99,9 +83,9 @@ class PairMatcher {
     const View& view = map_.view();
     const Eigen::Vector3d ray1 = view.pinhole().unproject(a_.frame.pixel(i));
     const Eigen::Vector3d ray2 = view.pinhole().unproject(b_.frame.pixel(j));
-    const double cosine = ray1.normalized().dot((R_12_ * ray2).normalized());
-    if (!(cosine > 0 && cosine < max_cosine_)) return;
-    const Eigen::Vector3d X = triangulate(a_, b_, ray1, ray2);
+    const TwoRayPoint meeting = triangulate_two_rays(R_21_, t_21_, ray1, ray2);
+    if (!meeting.in_front() || meeting.parallax < min_parallax_) return;
+    const Eigen::Vector3d X = a_.keyframe.T_wc * meeting.point;
     if (!X.allFinite() || !reprojects(view, a_, X, i) || !reprojects(view, b_, X, j)) return;
     const double d1 = (X - a_.keyframe.T_wc.translation()).norm();
     const double d2 = (X - b_.keyframe.T_wc.translation()).norm();
@@ -122,8 +106,9 @@ class PairMatcher {
   Map& map_;
   KeyframeId id1_, id2_;
   Eye a_, b_;
-  double max_cosine_;
-  Eigen::Matrix3d F_, R_12_;
+  double min_parallax_;  // radians
+  Eigen::Matrix3d F_, R_21_;
+  Eigen::Vector3d t_21_;
   std::vector<std::uint32_t> free2_;
   std::vector<char> taken_;
 };

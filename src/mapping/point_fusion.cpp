@@ -14,20 +14,16 @@ constexpr int kSecondNeighbours = 5;
 // The keypoint of the keyframe that shows the point best, or -1.
 int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, const Visibility& v,
                   double radius) {
-  int best = kMaxDistance + 1, result = -1;
-  frame.grid.for_each_within(
-      static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y()),
+  BestMatch best;
+  frame.grid.for_each(
+      {static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y())},
       static_cast<float>(radius * view.sigma(v.octave)), v.octave - 1, v.octave + 1,
       [&](std::uint32_t i) {
         const double sigma = view.sigma(frame.octave(i));
         if ((frame.pixel(i) - v.pixel).squaredNorm() > kGate * sigma * sigma) return;
-        const int distance = hamming(point.descriptor, frame.features.descriptors[i]);
-        if (distance < best) {
-          best = distance;
-          result = static_cast<int>(i);
-        }
+        best.offer(i, hamming(point.descriptor, frame.features.descriptors[i]));
       });
-  return result;
+  return best.distance <= kMaxDistance ? static_cast<int>(best.index) : -1;
 }
 
 }  // namespace

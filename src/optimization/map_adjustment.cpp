@@ -32,13 +32,13 @@ class Adjustment {
     build();
   }
 
-  AdjustmentSummary solve(int iterations, const std::atomic<bool>* abort) {
+  AdjustmentSummary solve(int iterations, double tolerance, const std::atomic<bool>* abort) {
     ceres::Solver::Options options;
     options.linear_solver_type =
         free_count_ > 60 ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
     options.linear_solver_ordering = ordering_;
     options.max_num_iterations = iterations;
-    options.function_tolerance = 1e-5;
+    options.function_tolerance = tolerance;
     options.num_threads = 1;  // more would sum in an order that changes from run to run
     options.logging_type = ceres::SILENT;
     AbortCallback callback(abort);
@@ -229,7 +229,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
     free.erase(oldest);
   }
   Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points));
-  AdjustmentSummary summary = adjustment.solve(options.local_iterations, abort);
+  AdjustmentSummary summary = adjustment.solve(options.local_iterations, 1e-4, abort);
   if (!summary.usable) return summary;
   adjustment.write_back();
   summary.outliers = adjustment.erase_outliers();
@@ -250,7 +250,7 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
     if (free.empty() || points.empty()) return summary;
     Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points));
     const int outliers = summary.outliers;
-    summary = adjustment.solve(options.full_iterations, abort);
+    summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;
     summary.initial_rms = initial_rms;
     if (!summary.usable) return summary;

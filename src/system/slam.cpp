@@ -95,7 +95,7 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
       frame->colours.emplace_back(bgr[2], bgr[1], bgr[0]);
     }
   });
-  frame->index(view);
+  frame->grid.build(frame->features);
   return frame;
 }
 

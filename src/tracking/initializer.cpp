@@ -6,7 +6,7 @@ namespace cairn {
 namespace {
 
 constexpr int kMaxDistance = 60;  // Hamming
-constexpr float kRatio = 0.9F;
+constexpr double kRatio = 0.9;
 constexpr int kMaxOctave = 2;     // coarse keypoints are too uncertain to start from
 
 }  // namespace
@@ -27,36 +27,30 @@ int Initializer::follow(const Frame& frame) {
   for (std::size_t i = 0; i < reference_->size(); ++i) {
     const int octave = reference_->octave(i);
     if (octave > kMaxOctave) continue;
-    int best = 257, second = 257;
-    std::uint32_t best_index = 0;
-    frame.grid.for_each_within(
-        followed_[i].x(), followed_[i].y(), static_cast<float>(options_.search_radius), octave,
-        octave, [&](std::uint32_t j) {
-          const int d = hamming(reference_->features.descriptors[i], frame.features.descriptors[j]);
-          if (d < best) {
-            second = best;
-            best = d;
-            best_index = j;
-          } else if (d < second) {
-            second = d;
-          }
-        });
-    if (best > kMaxDistance || best > kRatio * second || best >= owner_distance[best_index]) continue;
-    if (owner[best_index] >= 0) match_[owner[best_index]] = -1;
-    owner[best_index] = static_cast<int>(i);
-    owner_distance[best_index] = best;
-    match_[i] = static_cast<int>(best_index);
+    BestMatch best;
+    frame.grid.for_each({followed_[i].x(), followed_[i].y()},
+                        static_cast<float>(options_.search_radius), octave, octave,
+                        [&](std::uint32_t j) {
+                          best.offer(j, hamming(reference_->features.descriptors[i],
+                                                frame.features.descriptors[j]));
+                        });
+    if (!best.accepted(kMaxDistance, kRatio) || best.distance >= owner_distance[best.index]) continue;
+    if (owner[best.index] >= 0) match_[owner[best.index]] = -1;
+    owner[best.index] = static_cast<int>(i);
+    owner_distance[best.index] = best.distance;
+    match_[i] = static_cast<int>(best.index);
   }
-  RotationConsistency rotation;
+  RotationHistogram rotation;
   for (std::size_t i = 0; i < match_.size(); ++i) {
     if (match_[i] < 0) continue;
     rotation.add(reference_->features.keypoints[i].angle,
                  frame.features.keypoints[match_[i]].angle);
   }
+  rotation.choose();
   int count = 0;
   for (std::size_t i = 0; i < match_.size(); ++i) {
     if (match_[i] < 0) continue;
-    if (!rotation.agrees(reference_->features.keypoints[i].angle,
+    if (!rotation.consistent(reference_->features.keypoints[i].angle,
                          frame.features.keypoints[match_[i]].angle)) {
       match_[i] = -1;
       continue;

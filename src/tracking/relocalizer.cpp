@@ -21,7 +21,6 @@ class Attempt {
   bool match_by_appearance() {
     int count = 0;
     MatchOptions match_options;
-    match_options.ratio = 0.8F;
     for (const auto& m : match_mutual(map_->reference_frame->features, frame_.features,
                                       match_options)) {
       const std::uint32_t point = map_->reference_points[m.first];
@@ -42,8 +41,10 @@ class Attempt {
       pixels.push_back(o.pixel);
       sigmas.push_back(o.sigma);
     }
+    ResectionOptions options;
+    options.min_inliers = kMinResectionInliers;
     const ResectionResult result =
-        resect_ransac(positions, pixels, sigmas, view_.pinhole(), ResectionOptions{}, seed);
+        cairn::resect({positions, pixels, sigmas}, view_.pinhole(), options, seed);
     if (!result.usable) return false;
     T_wc_ = result.T_cw.inverse();
     return adjust() >= kMinResectionInliers;
