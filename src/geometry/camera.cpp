@@ -1,5 +1,6 @@
 #include "cairn/geometry/camera.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
