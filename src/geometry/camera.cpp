@@ -1,8 +1,10 @@
 #include "cairn/geometry/camera.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "cairn/geometry/error.h"
 
@@ -130,7 +132,9 @@ Vector3d Camera::unproject(const Vector2d& pixel) const {
 
 Vector2d Camera::undistort(const Vector2d& pixel) const {
   if (!distorted_) return pixel;
-  return intrinsics_.project(unproject(pixel));
+  const Vector3d ray = unproject(pixel);
+  if (!(ray.z() > 0)) return Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return intrinsics_.project(ray);
 }
 
 Camera Camera::resized(int width, int height) const {

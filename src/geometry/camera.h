@@ -41,7 +41,8 @@ class Camera {
   Eigen::Vector2d project(const Eigen::Vector3d& X_c) const;
   /// A distorted pixel to the unit viewing ray; the inverse of project, by Newton's method.
   Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const;
-  /// A distorted pixel to the pixel where `pinhole()` would see the same ray.
+  /// A distorted pixel to the pixel where `pinhole()` would see the same ray. NaN where no pinhole
+  /// can: a fisheye's ray 90 degrees or more off the axis.
   Eigen::Vector2d undistort(const Eigen::Vector2d& pixel) const;
   /// The camera of the same lens for pictures of another size (a resized picture).
   Camera resized(int width, int height) const;

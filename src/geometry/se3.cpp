@@ -12,8 +12,9 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& omega) {
   if (theta2 < kSmallAngle * kSmallAngle) {
     return Eigen::Matrix3d::Identity() + 0.5 * W + W * W / 6.0;
   }
-  const double theta = std::sqrt(theta2);
-  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(theta)) / theta2 * W +
+  // 1 - cos(theta) as 2 sin²(theta / 2): it keeps its digits at small angles.
+  const double theta = std::sqrt(theta2), half_sine = std::sin(0.5 * theta);
+  return Eigen::Matrix3d::Identity() + 2.0 * half_sine * half_sine / theta2 * W +
          (theta - std::sin(theta)) / (theta2 * theta) * W * W;
 }
 
