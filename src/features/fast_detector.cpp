@@ -11,8 +11,8 @@
 namespace cairn {
 namespace {
 
-constexpr int kBlock = 32;        // pixels scored together: one AVX2 register
-constexpr int kNarrowBlock = 16;  // where few are needed
+constexpr std::ptrdiff_t kBlock = 32;        // pixels scored together: one AVX2 register
+constexpr std::ptrdiff_t kNarrowBlock = 16;  // where few are needed
 
 // The circle of radius 3, clockwise from the top.
 constexpr std::array<std::pair<int, int>, 16> kCircle = {{{0, -3},
@@ -85,7 +85,7 @@ CAIRN_INLINE bool may_hold_corner(const Byte* center, const Circle& circle, Byte
   return best > threshold;
 }
 
-template <int size>
+template <std::ptrdiff_t size>
 CAIRN_INLINE void score_block(const Byte* __restrict center, const Circle& circle,
                               Byte* __restrict score) {
   const auto& o = circle.offset;
@@ -181,7 +181,7 @@ void FastDetector::detect(const cv::Mat& image, int first_row, int last_row, int
 }
 
 std::array<std::uint8_t, 9> fast_contrast_3x3(const std::uint8_t* center, std::ptrdiff_t step) {
-  std::array<Byte, 3 * kNarrowBlock> scores;
+  std::array<Byte, std::size_t{3} * kNarrowBlock> scores;
   score_three_rows(center - step - 1, Circle(step), step, scores.data());
   std::array<Byte, 9> contrast;
   for (int i = 0; i < 9; ++i) contrast[i] = scores[i / 3 * kNarrowBlock + i % 3];

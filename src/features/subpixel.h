@@ -10,9 +10,11 @@ namespace cairn {
 /// by row) to the peak of the quadric that fits them best; where that has no peak near, of the two
 /// parabolas through the middle.
 ///
-/// It is fitted to FAST's own response: on real pictures matched keypoints then lie nearer to their
-/// epipolar lines (median 0.27 px instead of 0.42 px on 7-Scenes) than with the peak of Harris' or
-/// Shi and Tomasi's response or Foerstner's point, none of which is where FAST finds a corner.
+/// Meant for FAST's own response. On pairs of real pictures (7-Scenes, TUM) it brings the median
+/// distance of matched keypoints to their epipolar lines from 0.42 to 0.27 px and from 0.47 to
+/// 0.33 px. Harris' response on a smoothed picture, searched for its peak, comes to the same median
+/// with fewer matches within half a pixel, at several times the cost, though on drawn corners it is
+/// the finer one.
 cv::Point2f peak_offset(const std::array<std::uint8_t, 9>& response);
 
 }  // namespace cairn
