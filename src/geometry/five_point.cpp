@@ -1,5 +1,6 @@
 #include "cairn/geometry/five_point.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
