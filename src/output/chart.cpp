@@ -170,7 +170,7 @@ void ChartPainter::paint_series(const ChartSeries& series) {
 
 void ChartPainter::paint_legend() {
   // In the title's line, from the right: it never hides data there.
-  double x = plot_.br().x;
+  double x = plot_.br().x - (chart_.colour_range ? 70 : 0);  // beside the name of the bar
   const double y = area_.y + 46;
   for (auto series = chart_.series.rbegin(); series != chart_.series.rend(); ++series) {
     if (series->name.empty()) continue;
@@ -200,8 +200,8 @@ void ChartPainter::paint_colour_bar() {
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
     draw_text(canvas_, tick_text(value, step), {bar.br().x + 10.0, y}, Anchor::kLeft, 0.75);
   }
-  draw_text(canvas_, chart_.colour_label, {bar.x + bar.width / 2.0, bar.br().y + 26.0},
-            Anchor::kCentre, 0.8);
+  draw_text(canvas_, chart_.colour_label, {bar.x + bar.width / 2.0, bar.y - 24.0}, Anchor::kCentre,
+            0.8);
 }
 
 void ChartPainter::paint() {

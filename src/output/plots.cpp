@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 const cv::Point2d kBreak(std::numeric_limits<double>::quiet_NaN(),
                          std::numeric_limits<double>::quiet_NaN());
 
+// Wide and below the estimate, so that it is seen where both agree.
+constexpr double kTruthWidth = 4.5;
+
 cv::Point2d from_above(const PlanView& view, const Vector3d& x) {
   return {view.right.dot(x), view.forward.dot(x)};
 }
@@ -113,7 +116,7 @@ void add_points(const PlotScene& scene, Chart& chart) {
   for (const std::size_t i : kept) heights.push_back(height(i));
   const double low = quantile(heights, 0.02), high = quantile(heights, 0.98);
   const bool by_height = scene.point_colours.size() != scene.points.size();
-  ChartSeries dots{"", {}, colours::kTruth, false, kept.size() > 20000 ? 1.0 : 1.8, {}, false};
+  ChartSeries dots{"", {}, colours::kTruth, false, kept.size() > 20000 ? 1.4 : 2.4, {}, false};
   for (const std::size_t i : kept) {
     dots.points.push_back(from_above(scene.view, scene.points[i]));
     if (by_height) {
@@ -180,8 +183,9 @@ cv::Mat draw_trajectory_plot(const PlotScene& scene) {
   profile.y_label = "height (" + scene.view.up_name + ") [" + scene.unit + "]";
   const Trajectory truth = truth_beside(scene);
   if (!truth.empty()) {
-    plan.series.push_back({"ground truth", line_of(truth, above), colours::kTruth});
-    profile.series.push_back({"", line_of(truth, height), colours::kTruth});
+    plan.series.push_back(
+        {"ground truth", line_of(truth, above), colours::kTruth, true, kTruthWidth});
+    profile.series.push_back({"", line_of(truth, height), colours::kTruth, true, kTruthWidth});
   }
   plan.series.push_back({"cairn", line_of(scene.estimate, above), colours::kEstimate});
   plan.series.back().end_markers = true;
