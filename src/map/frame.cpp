@@ -18,7 +18,8 @@ bool pinhole_pixel(const Camera& camera, const Eigen::Vector2d& pixel, Eigen::Ve
 
 }  // namespace
 
-View::View(const Camera& camera, int levels, double scale) : pinhole_(camera.pinhole()) {
+View::View(const Camera& camera, int levels, double scale, double sigma_px)
+    : pinhole_(camera.pinhole()), sigma_px_(sigma_px) {
   const double w = camera.width() - 1, h = camera.height() - 1;
   min_x_ = w;
   min_y_ = h;

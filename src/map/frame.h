@@ -15,7 +15,8 @@ namespace cairn {
 class View {
  public:
   View() = default;
-  View(const Camera& camera, int levels, double scale);
+  /// `sigma_px`: standard deviation of the position of a keypoint of octave 0.
+  View(const Camera& camera, int levels, double scale, double sigma_px);
 
   const Pinhole& pinhole() const { return pinhole_; }
   bool contains(const Eigen::Vector2d& uv) const {
@@ -27,15 +28,16 @@ class View {
   double max_y() const { return max_y_; }
 
   int levels() const { return static_cast<int>(scale_.size()); }
-  double scale_factor() const { return scale_[1] / scale_[0]; }
   double log_scale_factor() const { return log_scale_factor_; }
-  /// Size of a pixel of an octave in pixels of the full picture; taken as σ of its keypoints.
-  double sigma(int octave) const { return scale_[octave]; }
+  /// Size of a pixel of an octave in pixels of the full picture.
+  double scale(int octave) const { return scale_[octave]; }
+  /// Standard deviation of a keypoint's position in each direction, pixels.
+  double sigma(int octave) const { return sigma_px_ * scale_[octave]; }
 
  private:
   Pinhole pinhole_;
   double min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;
-  double log_scale_factor_ = 0;
+  double log_scale_factor_ = 0, sigma_px_ = 1;
   std::vector<double> scale_;
 };
 

@@ -86,7 +86,7 @@ void Map::update_geometry(PointId id) {
     const Eigen::Vector3d ray = point.position - keyframe.T_wc.translation();
     const double distance = std::max(ray.norm(), 1e-12);
     normal += ray / distance;
-    log_base += std::log(distance * view_.sigma(keyframe.frame->octave(o.keypoint)));
+    log_base += std::log(distance * view_.scale(keyframe.frame->octave(o.keypoint)));
   }
   point.normal = normal.normalized().cast<float>();
   point.base_distance = static_cast<float>(std::exp(log_base / point.observations.size()));
@@ -116,20 +116,18 @@ void Map::update_descriptor(PointId id) {
 }
 
 std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_shared) const {
-  std::vector<KeyframeId> seen;
+  std::vector<std::pair<KeyframeId, int>> counts;  // by slot
   for (const PointId p : keyframes_[id].points) {
     if (!p.valid()) continue;
     for (const Observation& o : points_[p].observations) {
-      if (o.keyframe != id) seen.push_back(o.keyframe);
+      if (o.keyframe.slot >= counts.size()) counts.resize(o.keyframe.slot + 1, {{}, 0});
+      counts[o.keyframe.slot].first = o.keyframe;
+      ++counts[o.keyframe.slot].second;
     }
   }
-  std::sort(seen.begin(), seen.end());
   std::vector<std::pair<KeyframeId, int>> result;
-  for (std::size_t i = 0; i < seen.size();) {
-    std::size_t j = i;
-    while (j < seen.size() && seen[j] == seen[i]) ++j;
-    if (static_cast<int>(j - i) >= min_shared) result.emplace_back(seen[i], int(j - i));
-    i = j;
+  for (const auto& entry : counts) {
+    if (entry.second >= std::max(min_shared, 1) && entry.first != id) result.push_back(entry);
   }
   std::sort(result.begin(), result.end(), [&](const auto& a, const auto& b) {
     if (a.second != b.second) return a.second > b.second;

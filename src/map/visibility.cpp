@@ -21,7 +21,7 @@ Visibility predict_visibility(const View& view, const SE3& T_cw, const Eigen::Ve
   if (!view.contains(v.pixel)) return v;
   const Eigen::Vector3d ray = position - camera_w;
   const double distance = ray.norm();
-  const double top = view.sigma(view.levels() - 1);
+  const double top = view.scale(view.levels() - 1);
   if (distance > kRangeTolerance * base_distance ||
       distance * top * kRangeTolerance < base_distance) {
     return v;

@@ -98,6 +98,10 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
 AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() < 2) return {};
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, abort);
+  // Places that were seen twice, with drift in between, meet only now.
+  const int fused = fuse_everywhere(map_);
+  spdlog::info("full adjustment: {}; then {} points fused", summary.to_string(), fused);
+  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, abort);
   publish(map_.newest());
   return summary;
 }

@@ -46,51 +46,59 @@ class PairMatcher {
   }
 
   void run(std::vector<PointId>& created) {
-    free2_.clear();
     for (std::uint32_t j = 0; j < b_.frame.size(); ++j) {
-      if (!b_.keyframe.points[j].valid()) free2_.push_back(j);
+      if (b_.keyframe.points[j].valid()) continue;
+      const Keypoint& kp = b_.frame.features.keypoints[j];
+      const double sigma = map_.view().sigma(kp.octave);
+      free_.push_back(j);
+      x_.push_back(kp.x);
+      y_.push_back(kp.y);
+      gate_.push_back(static_cast<float>(kEpipolarGate * sigma * sigma));
     }
-    taken_.assign(b_.frame.size(), 0);
+    near_line_.resize(free_.size());
     for (std::uint32_t i = 0; i < a_.frame.size(); ++i) {
       if (a_.keyframe.points[i].valid()) continue;
-      const int j = best_on_line(i);
-      if (j >= 0) try_point(i, static_cast<std::uint32_t>(j), created);
+      const int k = best_on_line(i);
+      if (k < 0 || !try_point(i, free_[k], created)) continue;
+      gate_[k] = -1;  // taken
     }
   }
 
  private:
-  // The nearest descriptor near to the epipolar line of keypoint i, or -1.
-  int best_on_line(std::uint32_t i) const {
+  // Of the free keypoints near to the epipolar line of keypoint i the one that looks most alike: an
+  // index into free_, or -1.
+  int best_on_line(std::uint32_t i) {
     const Eigen::Vector3d line = F_ * a_.frame.pixel(i).homogeneous();
-    const double norm2 = line.head<2>().squaredNorm();
-    if (norm2 < 1e-20) return -1;
-    const Descriptor& d = a_.frame.features.descriptors[i];
-    int best = kMaxDistance + 1, result = -1;
-    for (const std::uint32_t j : free2_) {
-      if (taken_[j]) continue;
-      const int distance = hamming(d, b_.frame.features.descriptors[j]);
-      if (distance >= best) continue;
-      const double sigma = map_.view().sigma(b_.frame.octave(j));
-      const double e = line.dot(b_.frame.pixel(j).homogeneous());
-      if (e * e > kEpipolarGate * sigma * sigma * norm2) continue;
-      best = distance;
-      result = static_cast<int>(j);
+    const double norm = line.head<2>().norm();
+    if (norm < 1e-10) return -1;
+    const Eigen::Vector3f l = (line / norm).cast<float>();
+    const std::size_t n = free_.size();
+    for (std::size_t k = 0; k < n; ++k) {  // vectorised
+      const float e = l.x() * x_[k] + l.y() * y_[k] + l.z();
+      near_line_[k] = e * e < gate_[k];
     }
-    return result;
+    BestMatch best;
+    const Descriptor& d = a_.frame.features.descriptors[i];
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!near_line_[k]) continue;
+      best.offer(static_cast<std::uint32_t>(k), hamming(d, b_.frame.features.descriptors[free_[k]]));
+    }
+    return best.distance <= kMaxDistance ? static_cast<int>(best.index) : -1;
   }
 
-  void try_point(std::uint32_t i, std::uint32_t j, std::vector<PointId>& created) {
+  bool try_point(std::uint32_t i, std::uint32_t j, std::vector<PointId>& created) {
     const View& view = map_.view();
     const Eigen::Vector3d ray1 = view.pinhole().unproject(a_.frame.pixel(i));
     const Eigen::Vector3d ray2 = view.pinhole().unproject(b_.frame.pixel(j));
     const TwoRayPoint meeting = triangulate_two_rays(R_21_, t_21_, ray1, ray2);
-    if (!meeting.in_front() || meeting.parallax < min_parallax_) return;
+    if (!meeting.in_front() || meeting.parallax < min_parallax_) return false;
     const Eigen::Vector3d X = a_.keyframe.T_wc * meeting.point;
-    if (!X.allFinite() || !reprojects(view, a_, X, i) || !reprojects(view, b_, X, j)) return;
+    if (!X.allFinite() || !reprojects(view, a_, X, i) || !reprojects(view, b_, X, j)) return false;
     const double d1 = (X - a_.keyframe.T_wc.translation()).norm();
     const double d2 = (X - b_.keyframe.T_wc.translation()).norm();
-    const double size_ratio = d1 * view.sigma(a_.frame.octave(i)) / (d2 * view.sigma(b_.frame.octave(j)));
-    if (size_ratio > kSizeTolerance || size_ratio * kSizeTolerance < 1) return;
+    const double size_ratio = 
+        d1 * view.scale(a_.frame.octave(i)) / (d2 * view.scale(b_.frame.octave(j)));
+    if (size_ratio > kSizeTolerance || size_ratio * kSizeTolerance < 1) return false;
     const PointId id = map_.add_point(X);
     map_.add_observation(id, id1_, i);
     map_.add_observation(id, id2_, j);
@@ -99,8 +107,8 @@ class PairMatcher {
     p.born = a_.keyframe.sequence;
     map_.update_descriptor(id);
     map_.update_geometry(id);
-    taken_[j] = 1;
     created.push_back(id);
+    return true;
   }
 
   Map& map_;
@@ -109,8 +117,10 @@ class PairMatcher {
   double min_parallax_;  // radians
   Eigen::Matrix3d F_, R_21_;
   Eigen::Vector3d t_21_;
-  std::vector<std::uint32_t> free2_;
-  std::vector<char> taken_;
+  // The keypoints of b without a point.
+  std::vector<std::uint32_t> free_;
+  std::vector<float> x_, y_, gate_;
+  std::vector<char> near_line_;
 };
 
 }  // namespace

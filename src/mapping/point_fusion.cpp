@@ -17,7 +17,7 @@ int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, c
   BestMatch best;
   frame.grid.for_each(
       {static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y())},
-      static_cast<float>(radius * view.sigma(v.octave)), v.octave - 1, v.octave + 1,
+      static_cast<float>(radius * view.scale(v.octave)), v.octave - 1, v.octave + 1,
       [&](std::uint32_t i) {
         const double sigma = view.sigma(frame.octave(i));
         if ((frame.pixel(i) - v.pixel).squaredNorm() > kGate * sigma * sigma) return;
@@ -87,6 +87,19 @@ int fuse_neighbourhood(Map& map, KeyframeId id, int neighbours) {
     map.update_descriptor(p);
     map.update_geometry(p);
   }
+  return fused;
+}
+
+int fuse_everywhere(Map& map) {
+  std::vector<KeyframeId> keyframes;
+  map.keyframes().for_each([&](KeyframeId id, const Keyframe&) { keyframes.push_back(id); });
+  int fused = 0;
+  for (const KeyframeId id : keyframes) {
+    std::vector<PointId> points;
+    map.points().for_each([&](PointId p, const MapPoint&) { points.push_back(p); });
+    fused += fuse_into(map, id, points, 3);
+  }
+  map.points().for_each([&](PointId p, const MapPoint&) { map.update_geometry(p); });
   return fused;
 }
 

@@ -15,4 +15,7 @@ int fuse_into(Map& map, KeyframeId keyframe, std::span<const PointId> points, do
 /// Fusion between a keyframe and its neighbourhood, both ways.
 int fuse_neighbourhood(Map& map, KeyframeId keyframe, int neighbours);
 
+/// Fusion of every keyframe with all points of the map that it should see.
+int fuse_everywhere(Map& map);
+
 }  // namespace cairn

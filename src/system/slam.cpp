@@ -26,7 +26,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 struct Slam::Implementation {
   Implementation(const Camera& camera, const Options& options)
       : options(options),
-        view(camera, options.features.levels, options.features.scale),
+        view(camera, options.features.levels, options.features.scale, options.tracking.sigma_px),
         undistorter(camera),
         extractor(options.features),
         initializer(view, options.initialization, options.seed),

@@ -64,7 +64,7 @@ class Attempt {
                                               p.normal, p.base_distance);
       if (!v.visible) continue;
       expected.push_back({i, v.pixel.cast<float>(),
-                          static_cast<float>(radius * view_.sigma(v.octave)),
+                          static_cast<float>(radius * view_.scale(v.octave)),
                           static_cast<std::int16_t>(v.octave - 1),
                           static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
     }

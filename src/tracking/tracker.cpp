@@ -119,7 +119,7 @@ bool Tracker::track_motion(const Frame& frame, SE3& T_wc) {
       const Eigen::Vector2d uv = view_.pinhole().project(X);
       if (!view_.contains(uv)) continue;
       const int octave = last_.frame->octave(i);
-      const double radius = widen * options_.search_radius * std::sqrt(view_.sigma(octave));
+      const double radius = widen * options_.search_radius * std::sqrt(view_.scale(octave));
       expected_.push_back({index, uv.cast<float>(), static_cast<float>(radius),
                            static_cast<std::int16_t>(octave - 1),
                            static_cast<std::int16_t>(octave + 1), &p.descriptor});
@@ -175,7 +175,7 @@ bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
     if (!v.visible) continue;
     last_.visible.push_back(p.id);
     const double radius =
-        widen * (v.cosine > kFrontalCosine ? 2.5 : 4.0) * view_.sigma(v.octave);
+        widen * (v.cosine > kFrontalCosine ? 2.5 : 4.0) * view_.scale(v.octave);
     expected_.push_back({i, v.pixel.cast<float>(), static_cast<float>(radius),
                          static_cast<std::int16_t>(v.octave - 1),
                          static_cast<std::int16_t>(v.octave + 1), &p.descriptor});

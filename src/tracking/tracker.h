@@ -12,6 +12,7 @@
 namespace cairn {
 
 struct TrackingOptions {
+  double sigma_px = 1.0;           ///< of the position of a keypoint of octave 0
   int min_inliers = 30;            ///< points that must agree with a pose
   int min_prediction_inliers = 12; ///< points of the last frame that must agree with the prediction
   double search_radius = 15;       ///< pixels around the prediction of the motion model
