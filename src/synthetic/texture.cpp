@@ -70,22 +70,22 @@ void print_marks(cv::Mat& texture, int count, int smallest, int largest, cv::RNG
 
 cv::Mat wood(const cv::Size& size, cv::RNG& random) {
   const cv::Mat1f warp = fractal_noise(size, 128, 0.5, random);
-  const cv::Mat1f grain = fractal_noise(size, 32, 0.8, random);
+  const cv::Mat1f grain = fractal_noise(size, 32, 0.95, random);
   cv::Mat1f brightness(size);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const float stripe = std::sin(0.16f * float(y) + 9.0f * warp(y, x));
-      brightness(y, x) = 165 + 30 * stripe + 70 * grain(y, x);
+      brightness(y, x) = 165 + 22 * stripe + 110 * grain(y, x);
     }
   }
   cv::Mat texture = tinted(brightness, {120, 175, 225});
-  print_marks(texture, size.area() / 2200, 5, 26, random);
+  print_marks(texture, size.area() / 500, 3, 26, random);
   return texture;
 }
 
 cv::Mat tiles(const cv::Size& size, cv::RNG& random) {
   constexpr int kTile = 60, kJoint = 3;
-  cv::Mat1f brightness = 150 + 90 * fractal_noise(size, 64, 0.8, random);
+  cv::Mat1f brightness = 150 + 120 * fractal_noise(size, 64, 0.9, random);
   for (int y = 0; y < size.height; y += kTile) {
     for (int x = 0; x < size.width; x += kTile) {
       const cv::Rect tile = cv::Rect(x, y, kTile, kTile) & cv::Rect({0, 0}, size);
@@ -93,7 +93,7 @@ cv::Mat tiles(const cv::Size& size, cv::RNG& random) {
     }
   }
   cv::Mat texture = tinted(brightness, {215, 220, 220});
-  print_marks(texture, size.area() / 1500, 4, 24, random);
+  print_marks(texture, size.area() / 330, 3, 24, random);
   for (int y = 0; y < size.height; y += kTile)
     texture.rowRange(y, std::min(y + kJoint, size.height)) = cv::Scalar(60, 60, 65);
   for (int x = 0; x < size.width; x += kTile)
@@ -102,8 +102,8 @@ cv::Mat tiles(const cv::Size& size, cv::RNG& random) {
 }
 
 cv::Mat wallpaper(const cv::Size& size, cv::RNG& random) {
-  cv::Mat texture = tinted(175 + 70 * fractal_noise(size, 256, 0.75, random), {205, 225, 235});
-  print_marks(texture, size.area() / 1400, 4, 34, random);
+  cv::Mat texture = tinted(175 + 130 * fractal_noise(size, 128, 0.9, random), {205, 225, 235});
+  print_marks(texture, size.area() / 330, 3, 34, random);
   // Posters.
   for (int i = 0; i < 9; ++i) {
     const cv::Size poster(random.uniform(70, 150), random.uniform(70, 150));
@@ -112,16 +112,16 @@ cv::Mat wallpaper(const cv::Size& size, cv::RNG& random) {
                       poster);
     texture(at) = random_colour(random, 60, 230);
     cv::Mat inside = texture(at);
-    print_marks(inside, at.area() / 350, 4, 50, random);
+    print_marks(inside, at.area() / 160, 3, 40, random);
     cv::rectangle(texture, at, cv::Scalar(25, 25, 25), 3);
   }
   return texture;
 }
 
 cv::Mat print(const cv::Size& size, cv::RNG& random) {
-  const cv::Mat1f noise = fractal_noise(size, 64, 0.7, random);
-  cv::Mat texture = tinted(190 + 80 * noise, random_colour(random, 110, 240));
-  print_marks(texture, size.area() / 700, 5, 60, random);
+  const cv::Mat1f noise = fractal_noise(size, 64, 0.9, random);
+  cv::Mat texture = tinted(190 + 110 * noise, random_colour(random, 110, 240));
+  print_marks(texture, size.area() / 220, 4, 60, random);
   return texture;
 }
 
