@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -44,7 +45,7 @@ class DemoFrames : public FrameSource {
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
-  const auto nth = values.begin() + std::ptrdiff_t(q * double(values.size() - 1) + 0.5);
+  const auto nth = values.begin() + std::lround(q * double(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }

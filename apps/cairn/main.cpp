@@ -11,6 +11,11 @@
 
 namespace {
 
+using namespace cairn::app;
+
+constexpr int kWrongUsage = int(cairn::Error::Kind::kUsage);
+constexpr int kCannotRead = int(cairn::Error::Kind::kInput);
+
 int complain(const std::string& sentence, int exit_code) {
   std::fprintf(stderr, "cairn: %s\n", sentence.c_str());
   return exit_code;
@@ -24,15 +29,7 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace cairn::app;
-  // Standard output belongs to results.
-  spdlog::set_default_logger(spdlog::stderr_color_mt("cairn"));
-  spdlog::set_level(spdlog::level::warn);
-
-  CLI::App program("Turns the pictures of one moving camera into a trajectory and a map.", "cairn");
+std::map<std::string, Action> add_commands(CLI::App& program) {
   program.set_version_flag("--version", "cairn " CAIRN_VERSION);
   program.require_subcommand(1);
   std::map<std::string, Action> actions;
@@ -41,8 +38,16 @@ int main(int argc, char** argv) {
   actions["synth"] = add_synth(program);
   actions["bench"] = add_bench(program);
   actions["config"] = add_config(program);
+  return actions;
+}
 
-  const int usage = int(cairn::Error::Kind::kUsage);
+int run_program(int argc, char** argv) {
+  // Standard output belongs to results.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("cairn"));
+  spdlog::set_level(spdlog::level::warn);
+
+  CLI::App program("Turns the pictures of one moving camera into a trajectory and a map.", "cairn");
+  const auto actions = add_commands(program);
   try {
     program.parse(argc, argv);
     return actions.at(program.get_subcommands().front()->get_name())();
@@ -51,14 +56,23 @@ int main(int argc, char** argv) {
     const auto chosen = program.get_subcommands();
     const std::string help = chosen.empty() ? "cairn" : "cairn " + chosen.front()->get_name();
     return complain(on_one_line(error.what()) + "; `" + help + " --help` shows what there is",
-                    usage);
+                    kWrongUsage);
   } catch (const cairn::Error& error) {
     return complain(error.what(), int(error.kind()));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
   } catch (const std::bad_alloc&) {
-    return complain("there is not enough memory; give smaller pictures or a shorter sequence",
-                    int(cairn::Error::Kind::kInput));
+    std::fputs("cairn: there is not enough memory; give smaller pictures or a shorter sequence\n",
+               stderr);
+    return kCannotRead;
   } catch (const std::exception& error) {
-    return complain(std::string("this should not happen, please report it: ") + error.what(),
-                    usage);
+    std::fprintf(stderr, "cairn: this should not happen, please report it: %s\n", error.what());
+    return kWrongUsage;
   }
 }
