@@ -1,0 +1,181 @@
+#include <gmock/gmock.h>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <random>
+
+#include "cairn/output/chart.h"
+#include "cairn/output/overlay.h"
+#include "cairn/output/plots.h"
+#include "cairn/output/video_file.h"
+#include "datasets/temp_folder.h"
+
+namespace cairn {
+namespace {
+
+using testing::HasSubstr;
+
+// Pixels that are nearly of this colour.
+int count_of(const cv::Mat& picture, const cv::Scalar& colour) {
+  cv::Mat mask;
+  cv::inRange(picture, colour - cv::Scalar::all(6), colour + cv::Scalar::all(6), mask);
+  return cv::countNonZero(mask);
+}
+
+PlotScene room() {
+  PlotScene scene;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 300; ++i) {
+    const double a = 0.02 * i;
+    const Eigen::Vector3d t(2 * std::cos(a), 0.1 * std::sin(5 * a), 1.5 * std::sin(a));
+    scene.estimate.push_back({100 + i / 30.0, SE3(so3_exp({0, a, 0}), t)});
+    scene.truth.push_back(
+        {100 + i / 30.0,
+         SE3(so3_exp({0, a, 0}), t + 0.03 * Eigen::Vector3d(unit(random), unit(random), 0))});
+    if (i % 20 == 0) scene.keyframes.push_back(scene.estimate.back());
+  }
+  for (int i = 0; i < 4000; ++i) {
+    const double y = unit(random);
+    scene.points.push_back({4 * unit(random), y, i % 2 == 0 ? 3.0 : 3 * unit(random)});
+  }
+  scene.points.push_back({1e6, 1e6, -1e6});
+  scene.view = PlanView::first_camera();
+  scene.title = "room";
+  return scene;
+}
+
+// A folder to look at what the tests draw, if a person names one.
+void show(const char* name, const cv::Mat& picture) {
+  if (const char* folder = std::getenv("CAIRN_TEST_PICTURES")) {
+    write_png(std::filesystem::path(folder) / name, picture);
+  }
+}
+
+TEST(NiceTicks, AreRoundAndWithinTheRange) {
+  EXPECT_THAT(nice_ticks(0, 1, 5),
+              testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}));
+  EXPECT_THAT(nice_ticks(-3.2, 7.9, 4), testing::ElementsAre(0.0, 5.0));
+  EXPECT_EQ(nice_ticks(2, 2, 4).size(), 1u);
+}
+
+TEST(PlanView, FindsUpFromTheCameras) {
+  EXPECT_EQ(PlanView::from_cameras({{0, SE3()}}).up_name, "-y");
+  EXPECT_EQ(PlanView::from_cameras({{0, SE3()}}).forward_name, "z");
+  // A camera that looks along +y of a world with z up, tilted down a little.
+  const SE3 level(so3_exp({-M_PI / 2 - 0.3, 0, 0}), Eigen::Vector3d::Zero());
+  const PlanView view = PlanView::from_cameras({{0, level}});
+  EXPECT_EQ(view.up_name, "z");
+  EXPECT_EQ(view.right_name, "x");
+  EXPECT_EQ(view.forward_name, "y");
+  EXPECT_TRUE(view.right.cross(view.forward).isApprox(view.up));
+  EXPECT_EQ(PlanView::from_cameras({}).up_name, "-y");
+}
+
+TEST(Plots, ShowEstimateAndTruth) {
+  const PlotScene scene = room();
+  const cv::Mat plot = draw_trajectory_plot(scene);
+  show("trajectory.png", plot);
+  EXPECT_GT(count_of(plot, colours::kEstimate), 500);
+  EXPECT_GT(count_of(plot, colours::kTruth), 100);
+  PlotScene without = scene;
+  without.truth.clear();
+  EXPECT_LT(count_of(draw_trajectory_plot(without), colours::kTruth), 100);
+}
+
+TEST(Plots, LeaveWildPointsOutOfTheMap) {
+  const PlotScene scene = room();
+  const cv::Mat plot = draw_map_plot(scene);
+  show("map.png", plot);
+  // The path of 2 m by 1.5 m would be a dot beside a point at a thousand kilometres.
+  EXPECT_GT(count_of(plot, colours::kAccent), 500);
+}
+
+TEST(Plots, ShowTheErrorOverTime) {
+  std::vector<double> times, errors;
+  for (int i = 0; i < 200; ++i) {
+    times.push_back(i / 10.0 + (i > 100 ? 5 : 0));
+    errors.push_back(0.02 + 0.01 * std::sin(i / 9.0));
+  }
+  const cv::Mat plot = draw_error_plot(times, errors, "room");
+  show("error.png", plot);
+  EXPECT_GT(count_of(plot, colours::kEstimate), 300);
+}
+
+TEST(Plots, TakeScenesWithNothingInThem) {
+  EXPECT_FALSE(draw_trajectory_plot({}).empty());
+  EXPECT_FALSE(draw_map_plot({}).empty());
+  EXPECT_FALSE(draw_error_plot({}, {}, "").empty());
+  PlotScene still;
+  still.estimate = still.keyframes = {{1e9, SE3()}};
+  still.points = {{0, 0, 0}};
+  EXPECT_FALSE(draw_trajectory_plot(still).empty());
+  EXPECT_FALSE(draw_map_plot(still).empty());
+}
+
+TEST(WritePng, WritesAPictureThatReadsBack) {
+  TempFolder folder;
+  write_png(folder / "a.png", test_picture(3));
+  EXPECT_EQ(cv::norm(cv::imread((folder / "a.png").string()), test_picture(3)), 0);
+  EXPECT_THAT(error_of(Error::Kind::kOutput, [&] { write_png(folder / "b.png", {}); }),
+              HasSubstr("b.png"));
+}
+
+TEST(Overlay, MarksFeaturesAndWritesTheState) {
+  FrameOverlay overlay;
+  for (int i = 0; i < 40; ++i) overlay.features.push_back({20.f + 15 * i, 100, i % 2 == 0});
+  overlay.state = "tracked";
+  overlay.matches = 20;
+  overlay.fps = 31.4;
+  overlay.timestamp = 12.5;
+  const cv::Mat grey(401, 641, CV_8UC1, cv::Scalar(90));
+  const cv::Mat drawn = draw_overlay(grey, overlay);
+  show("overlay.png", drawn);
+  EXPECT_EQ(drawn.type(), CV_8UC3);
+  EXPECT_EQ(drawn.cols % 2 + drawn.rows % 2, 0);
+  EXPECT_GT(drawn.rows, grey.rows);
+  EXPECT_GT(count_of(drawn, colours::kMapped), 50);
+  EXPECT_EQ(grey.at<uchar>(100, 20), 90);  // the picture itself is not drawn on
+}
+
+TEST(WriteStrip, PutsPicturesInRows) {
+  TempFolder folder;
+  write_strip(folder / "strip.png", std::vector<cv::Mat>(5, test_picture(1)), 3, 100);
+  const cv::Mat strip = cv::imread((folder / "strip.png").string());
+  EXPECT_EQ(strip.size(), cv::Size(3 * 106 - 6, 2 * 81 - 6));
+  EXPECT_THROW(write_strip(folder / "strip.png", {}, 3), Error);
+  EXPECT_THROW(write_strip(folder / "strip.what", {test_picture(1)}, 3), Error);
+}
+
+TEST(VideoFile, AppearsWhenItIsFinished) {
+  TempFolder folder;
+  for (const char* name : {"a.avi", "a.mp4"}) {
+    {
+      VideoFile given_up(folder / name, 10);
+      given_up.write(test_picture(0));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+    VideoFile video(folder / name, 10);
+    for (int i = 0; i < 12; ++i) video.write(test_picture(i));
+    video.write(test_picture(12, {80, 60}));
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+    video.finish();
+    cv::VideoCapture reader((folder / name).string());
+    cv::Mat picture;
+    int count = 0;
+    while (reader.read(picture)) ++count;
+    EXPECT_EQ(count, 13) << name;
+  }
+}
+
+TEST(VideoFile, SaysWhatItCannotDo) {
+  TempFolder folder;
+  EXPECT_THAT(error_of(Error::Kind::kUsage, [&] { VideoFile(folder / "a.gif", 10); }),
+              HasSubstr(".mp4 or .avi"));
+  VideoFile nowhere(folder / "no/a.avi", 10);
+  EXPECT_THAT(error_of(Error::Kind::kOutput, [&] { nowhere.write(test_picture(0)); }),
+              HasSubstr("no/a.avi"));
+}
+
+}  // namespace
+}  // namespace cairn
