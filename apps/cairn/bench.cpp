@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
+#include "cairn/output/summary.h"
 #include "cairn/synthetic/demo_scene.h"
 #include "commands.h"
 #include "interrupt.h"
@@ -43,21 +43,27 @@ class DemoFrames : public FrameSource {
   int index_ = 0;
 };
 
-double quantile(std::vector<double> values, double q) {
+double median(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto nth = values.begin() + std::lround(q * double(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-// Times of the tracked frames of one sequence, milliseconds.
+// Times of the tracked frames of one sequence.
 struct Times {
   std::string sequence;
   int features = 0;
   std::size_t frames = 0;
-  std::vector<double> extract, predict, local_map, total, orb;
+  std::vector<FrameRecord> tracked;
+  std::vector<double> orb_ms;
 
-  double ratio() const { return orb.empty() ? 0 : quantile(total, 0.5) / quantile(orb, 0.5); }
+  StageTime stage(const std::string& name) const {
+    const auto stages = stage_times(tracked);
+    const auto found = stages.find(name);
+    return found == stages.end() ? StageTime{} : found->second;
+  }
+  double ratio() const { return orb_ms.empty() ? 0 : stage("total").median_ms / median(orb_ms); }
 };
 
 // OpenCV's own ORB on the same picture, on one thread, as the yardstick of this machine.
@@ -84,11 +90,8 @@ void time_tracking(FrameSource& source, const Camera& camera, std::uint64_t seed
     ++times.frames;
     const FrameRecord& record = result.record;
     if (record.state != FrameState::kTracked) return;
-    times.extract.push_back(record.extract_ms);
-    times.predict.push_back(record.predict_ms);
-    times.local_map.push_back(record.local_map_ms);
-    times.total.push_back(record.total_ms);
-    times.orb.push_back(time_orb(*orb, image));
+    times.tracked.push_back(record);
+    times.orb_ms.push_back(time_orb(*orb, image));
   });
 }
 
@@ -108,21 +111,19 @@ Times time_sequence(const std::string& data, int seeds) {
 }
 
 nlohmann::json to_json(const Times& times) {
-  auto stage = [](const std::vector<double>& ms) {
-    return nlohmann::json{{"median_ms", quantile(ms, 0.5)}, {"p95_ms", quantile(ms, 0.95)}};
-  };
+  nlohmann::json stages;
+  for (const auto& [name, time] : stage_times(times.tracked)) {
+    stages[name] = {{"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}};
+  }
   return {{"sequence", times.sequence},
           {"features", times.features},
           {"frames", times.frames},
-          {"tracked", times.total.size()},
-          {"tracking_median_ms", quantile(times.total, 0.5)},
-          {"tracking_p95_ms", quantile(times.total, 0.95)},
-          {"orb_median_ms", quantile(times.orb, 0.5)},
+          {"tracked", times.tracked.size()},
+          {"tracking_median_ms", times.stage("total").median_ms},
+          {"tracking_p95_ms", times.stage("total").p95_ms},
+          {"orb_median_ms", median(times.orb_ms)},
           {"ratio", times.ratio()},
-          {"stages",
-           {{"extract", stage(times.extract)},
-            {"predict", stage(times.predict)},
-            {"local_map", stage(times.local_map)}}}};
+          {"stages", stages}};
 }
 
 void print_table(const std::vector<Times>& rows) {
@@ -132,17 +133,18 @@ void print_table(const std::vector<Times>& rows) {
   std::printf("%-24s %9s  %13s  %13s  %13s  %13s  %8s  %5s\n", "sequence", "tracked", "extract",
               "predict", "local map", "tracking", "cv::ORB", "ratio");
   for (const Times& t : rows) {
-    auto cell = [](const std::vector<double>& ms) {
+    auto cell = [&](const char* stage) {
       char text[32];
-      std::snprintf(text, sizeof text, "%.2f / %.2f", quantile(ms, 0.5), quantile(ms, 0.95));
+      const StageTime time = t.stage(stage);
+      std::snprintf(text, sizeof text, "%.2f / %.2f", time.median_ms, time.p95_ms);
       return std::string(text);
     };
-    const std::string tracked = std::to_string(t.total.size()) + "/" + std::to_string(t.frames);
+    const std::string tracked = std::to_string(t.tracked.size()) + "/" + std::to_string(t.frames);
     std::string name = t.sequence;
     if (name.size() > 24) name = "..." + name.substr(name.size() - 21);
     std::printf("%-24s %9s  %13s  %13s  %13s  %13s  %8.2f  %5.2f\n", name.c_str(), tracked.c_str(),
-                cell(t.extract).c_str(), cell(t.predict).c_str(), cell(t.local_map).c_str(),
-                cell(t.total).c_str(), quantile(t.orb, 0.5), t.ratio());
+                cell("extract").c_str(), cell("predict").c_str(), cell("local_map").c_str(),
+                cell("total").c_str(), median(t.orb_ms), t.ratio());
   }
 }
 
@@ -162,7 +164,7 @@ int bench_tracking(const Arguments& arguments) {
   }
   if (interrupted()) return kInterrupted;
   const bool tracked =
-      std::all_of(rows.begin(), rows.end(), [](auto& t) { return !t.total.empty(); });
+      std::all_of(rows.begin(), rows.end(), [](auto& t) { return !t.tracked.empty(); });
   if (!tracked) std::fprintf(stderr, "cairn: a sequence gave no map, so its row is empty\n");
   return tracked ? kDone : kNoMap;
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 namespace cairn::app {
 
@@ -11,7 +12,8 @@ using Action = std::function<int()>;
 enum ExitCode { kDone = 0, kNoMap = 1, kInterrupted = 130 };  // 2, 3, 4: see Error::Kind
 
 /// Each adds its sub-command and its options to the program, and says what to do when it is chosen.
-Action add_run(CLI::App& program);
+/// `command`: as typed, for the records.
+Action add_run(CLI::App& program, const std::string& command);
 Action add_evaluate(CLI::App& program);
 Action add_synth(CLI::App& program);
 Action add_bench(CLI::App& program);

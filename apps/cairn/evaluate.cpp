@@ -7,6 +7,7 @@
 
 #include "cairn/datasets/groundtruth.h"
 #include "cairn/geometry/error.h"
+#include "cairn/output/frames_csv.h"
 #include "commands.h"
 
 namespace cairn::app {
@@ -32,16 +33,8 @@ std::string remembered_groundtruth(const fs::path& run) {
 
 // The times of all pictures, for the coverage; nothing if the run left no record of them.
 std::vector<double> frame_times(const fs::path& run) {
-  std::ifstream file(run / "frames.csv");
-  std::vector<double> times;
-  std::string line;
-  std::getline(file, line);  // the names of the columns; the timestamp is the first
-  while (std::getline(file, line)) {
-    char* end = nullptr;
-    const double time = std::strtod(line.c_str(), &end);
-    if (end != line.c_str()) times.push_back(time);
-  }
-  return times;
+  const fs::path file = run / "frames.csv";
+  return fs::exists(file) ? read_frame_times(file) : std::vector<double>();
 }
 
 int evaluate_run(const Arguments& arguments) {

@@ -29,11 +29,13 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-std::map<std::string, Action> add_commands(CLI::App& program) {
+std::map<std::string, Action> add_commands(CLI::App& program, int argc, char** argv) {
+  std::string typed;
+  for (int i = 0; i < argc; ++i) typed.append(i > 0 ? " " : "").append(argv[i]);
   program.set_version_flag("--version", "cairn " CAIRN_VERSION);
   program.require_subcommand(1);
   std::map<std::string, Action> actions;
-  actions["run"] = add_run(program);
+  actions["run"] = add_run(program, typed);
   actions["evaluate"] = add_evaluate(program);
   actions["synth"] = add_synth(program);
   actions["bench"] = add_bench(program);
@@ -47,7 +49,7 @@ int run_program(int argc, char** argv) {
   spdlog::set_level(spdlog::level::warn);
 
   CLI::App program("Turns the pictures of one moving camera into a trajectory and a map.", "cairn");
-  const auto actions = add_commands(program);
+  const auto actions = add_commands(program, argc, argv);
   try {
     program.parse(argc, argv);
     return actions.at(program.get_subcommands().front()->get_name())();
