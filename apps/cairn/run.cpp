@@ -103,6 +103,7 @@ int run(const Arguments& arguments, const std::string& typed) {
   const Sequence sequence = open(arguments);
   const Camera& camera = camera_of(sequence, arguments.sequence);
   description.sequence = arguments.sequence;
+  description.name = sequence.name;
   description.layout = sequence.layout;
   description.calibration = sequence.calibration;
   description.camera = camera;

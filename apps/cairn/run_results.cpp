@@ -85,7 +85,7 @@ PlotScene plot_scene(const RunDescription& run, const SlamResult& result,
     scene.truth = run.groundtruth->trajectory;
     scene.view = PlanView::from_cameras(scene.truth);
   }
-  scene.title = run.sequence;
+  scene.title = run.name;
   scene.unit = report ? "m" : "map units";
   return scene;
 }
@@ -100,7 +100,7 @@ void write_plots(const fs::path& folder, const RunDescription& run, const SlamRe
   if (report) {
     std::vector<double> times;
     for (const StampedPose& pose : report->truth) times.push_back(pose.timestamp);
-    write_png(folder / "error.png", draw_error_plot(times, report->errors, run.sequence));
+    write_png(folder / "error.png", draw_error_plot(times, report->errors, run.name));
   }
 }
 

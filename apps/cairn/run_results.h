@@ -23,7 +23,8 @@ struct GroundTruth {
 struct RunDescription {
   std::filesystem::path folder;  ///< where results go
   std::string command;           ///< as typed
-  std::string sequence, layout, calibration;
+  std::string sequence, name;    ///< as given, and short
+  std::string layout, calibration;
   Camera camera;
   Options options;
   std::optional<GroundTruth> groundtruth;

@@ -24,6 +24,7 @@ class CommandLine : public testing::Test {
   // A sequence that can be opened; far too short for a map.
   std::string small_sequence() {
     const std::string folder = folder_ / "small";
+    if (std::filesystem::exists(folder)) return folder;
     const Ran synth = run_cairn("synth " + folder + " --frames 3");
     EXPECT_EQ(synth.exit_code, 0) << synth.output;
     return folder;
@@ -47,7 +48,7 @@ TEST_F(CommandLine, HelpAndVersionAreNoErrors) {
 TEST_F(CommandLine, WrongOptions) {
   EXPECT_THAT(run_cairn(""), fails(2, "subcommand"));
   EXPECT_THAT(run_cairn("fly"), fails(2, "cairn --help"));
-  EXPECT_THAT(run_cairn("run"), fails(2, "SEQUENCE"));
+  EXPECT_THAT(run_cairn("run"), fails(2, "sequence is required"));
   EXPECT_THAT(run_cairn("run x --fast"), fails(2, "--fast"));
   EXPECT_THAT(run_cairn("run x --layout floppy"), fails(2, "--layout"));
   EXPECT_THAT(run_cairn("run x --pace slow"), fails(2, "realtime or lockstep"));
@@ -127,6 +128,22 @@ TEST_F(CommandLine, OutputThatCannotBeWritten) {
 TEST_F(CommandLine, TooFewFramesGiveNoMapButAllRecords) {
   EXPECT_THAT(run_small("--pace lockstep"), fails(1, "no map could be initialised"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/frames.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/summary.json"));
+}
+
+TEST_F(CommandLine, AnInterruptedRunWritesWhatItHas) {
+  const std::string sequence = small_sequence();
+  // Frames so far apart that the interrupt comes between two of them.
+  std::ofstream list(sequence + "/rgb.txt");
+  double time = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(sequence + "/rgb")) {
+    list << time << " rgb/" << entry.path().filename().string() << "\n";
+    time += 1.5;
+  }
+  list.close();
+  const Ran ran = run_cairn("run " + sequence + " --pace realtime --out " + (folder_ / "out"),
+                            "timeout --preserve-status --signal=INT 1");
+  EXPECT_EQ(ran.exit_code, 130) << ran.output;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/summary.json"));
 }
 

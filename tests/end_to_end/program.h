@@ -35,10 +35,11 @@ struct Ran {
   std::string output;  ///< standard output and standard error together
 };
 
-/// Runs `cairn ARGUMENTS` through the shell.
-inline Ran run_cairn(const std::string& arguments) {
+/// Runs `cairn ARGUMENTS` through the shell, under a `wrapper` (timeout, ...) if one is given.
+inline Ran run_cairn(const std::string& arguments, const std::string& wrapper = "") {
   Ran ran;
-  FILE* pipe = popen(("'" CAIRN_PROGRAM "' " + arguments + " 2>&1 </dev/null").c_str(), "r");
+  FILE* pipe =
+      popen((wrapper + " '" CAIRN_PROGRAM "' " + arguments + " 2>&1 </dev/null").c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("the shell cannot be started");
   std::array<char, 4096> buffer;
   std::size_t read = 0;
