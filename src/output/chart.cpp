@@ -170,7 +170,7 @@ void ChartPainter::paint_series(const ChartSeries& series) {
 
 void ChartPainter::paint_legend() {
   // In the title's line, from the right: it never hides data there.
-  double x = plot_.br().x;
+  double x = plot_.br().x - (chart_.colour_range ? 70 : 0);  // beside the name of the bar
   const double y = area_.y + 46;
   for (auto series = chart_.series.rbegin(); series != chart_.series.rend(); ++series) {
     if (series->name.empty()) continue;

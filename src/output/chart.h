@@ -10,7 +10,7 @@ namespace cairn {
 /// The colours of all pictures that cairn draws (BGR).
 namespace colours {
 inline const cv::Scalar kEstimate(180, 92, 20);  // blue
-inline const cv::Scalar kTruth(120, 120, 120);   // grey
+inline const cv::Scalar kTruth(176, 172, 168);   // grey
 inline const cv::Scalar kAccent(60, 76, 214);    // red
 inline const cv::Scalar kMapped(96, 200, 60);    // green
 inline const cv::Scalar kText(60, 52, 46);

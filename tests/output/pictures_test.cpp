@@ -77,10 +77,11 @@ TEST(Plots, ShowEstimateAndTruth) {
   const cv::Mat plot = draw_trajectory_plot(scene);
   show("trajectory.png", plot);
   EXPECT_GT(count_of(plot, colours::kEstimate), 500);
-  EXPECT_GT(count_of(plot, colours::kTruth), 100);
+  EXPECT_GT(count_of(plot, colours::kTruth), 3000);
   PlotScene without = scene;
   without.truth.clear();
-  EXPECT_LT(count_of(draw_trajectory_plot(without), colours::kTruth), 100);
+  // Smoothed letters have some of this grey, too.
+  EXPECT_LT(count_of(draw_trajectory_plot(without), colours::kTruth), 1000);
 }
 
 TEST(Plots, LeaveWildPointsOutOfTheMap) {
