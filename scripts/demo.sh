@@ -8,7 +8,8 @@ sequence=${2:-}
 scene=build/demo/desk
 if [ -z "$sequence" ]; then
   sequence=$scene
-  if [ ! -e "$scene/.complete" ]; then
+  # Rendered once, and again when the scene has changed.
+  if [ ! -e "$scene/.complete" ] || [ -n "$(find src/synthetic -newer "$scene/.complete")" ]; then
     rm -rf "$scene"
     "$program" synth "$scene" --frames 600 --seed 0
     touch "$scene/.complete"

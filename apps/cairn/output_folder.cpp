@@ -28,7 +28,7 @@ fs::path default_folder(const std::string& name) {
 }  // namespace
 
 fs::path prepare_output_folder(const std::string& wanted, const std::string& name, bool force) {
-  const fs::path folder = wanted.empty() ? default_folder(name) : fs::path(wanted);
+  fs::path folder = wanted.empty() ? default_folder(name) : fs::path(wanted);
   std::error_code error;
   if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !error && !force) {
     throw Error(Error::Kind::kUsage,

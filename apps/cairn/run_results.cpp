@@ -58,6 +58,7 @@ std::optional<EvaluationReport> compare(const RunDescription& run,
                                         const SlamResult& result) {
   if (!run.groundtruth) return std::nullopt;
   std::vector<double> times;
+  times.reserve(frames.size());
   for (const FrameRecord& frame : frames) times.push_back(frame.timestamp);
   try {
     return evaluate(run.groundtruth->trajectory, result.trajectory, {}, times);

@@ -11,7 +11,6 @@ using testing::AllOf;
 using testing::Field;
 using testing::HasSubstr;
 using testing::Matcher;
-using testing::Not;
 
 // The exit code, and one sentence on a line that begins with the program's name.
 Matcher<Ran> fails(int exit_code, const std::string& part) {
@@ -23,7 +22,7 @@ class CommandLine : public testing::Test {
  protected:
   // A sequence that can be opened; far too short for a map.
   std::string small_sequence() {
-    const std::string folder = folder_ / "small";
+    std::string folder = folder_ / "small";
     if (std::filesystem::exists(folder)) return folder;
     const Ran synth = run_cairn("synth " + folder + " --frames 3");
     EXPECT_EQ(synth.exit_code, 0) << synth.output;

@@ -20,7 +20,8 @@ TEST(DemoScene, SameSeedSameBytesWithAnyNumberOfThreads) {
 TEST(DemoScene, PathIsSmoothAndLeavesRoomForParallax) {
   const DemoScene scene(0);
   Eigen::AlignedBox3d space;
-  for (double t = 0; t < 10; t += 1.0 / 30) {
+  for (int i = 0; i < 300; ++i) {
+    const double t = i / 30.0;
     const SE3 step = scene.T_wc(t).inverse() * scene.T_wc(t + 1.0 / 30);
     EXPECT_LT(step.translation().norm(), 0.04);
     EXPECT_LT(so3_log(step.rotation()).norm(), 0.04);
@@ -33,8 +34,8 @@ TEST(DemoScene, PathIsSmoothAndLeavesRoomForParallax) {
 TEST(DemoScene, EveryRayOfThePictureMeetsASurface) {
   const DemoScene scene(0);
   int missed = 0, all = 0;
-  for (double t = 0; t < 60; t += 1.7) {
-    const SE3 T_wc = scene.T_wc(t);
+  for (int i = 0; i < 36; ++i) {
+    const SE3 T_wc = scene.T_wc(1.7 * i);
     for (int y = 0; y < 480; y += 40) {
       for (int x = 0; x < 640; x += 40, ++all) {
         const Eigen::Vector3d ray = T_wc.rotation() * scene.camera().unproject({x, y});
