@@ -29,10 +29,14 @@ function(cairn_room NAME)
   file(MAKE_DIRECTORY ${INCLUDE_DIR}/cairn)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${NAME} ${INCLUDE_DIR}/cairn/${NAME} SYMBOLIC)
   target_include_directories(cairn_${NAME} PUBLIC $<BUILD_INTERFACE:${INCLUDE_DIR}>
-                             $<INSTALL_INTERFACE:include>)
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM ROOM_ROOMS PREPEND cairn_)
   target_link_libraries(cairn_${NAME} PUBLIC ${ROOM_ROOMS} ${ROOM_LIBRARIES}
                         PRIVATE $<BUILD_INTERFACE:cairn_settings>)
+  set_target_properties(cairn_${NAME} PROPERTIES EXPORT_NAME ${NAME})
+  install(TARGETS cairn_${NAME} EXPORT cairn)
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cairn/${NAME} FILES_MATCHING PATTERN "*.h")
   if(NAME STREQUAL "geometry")
     target_precompile_headers(cairn_${NAME} PRIVATE ${CAIRN_PRECOMPILED})
   else()

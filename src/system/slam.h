@@ -30,9 +30,9 @@ struct FrameResult {
 /// The map and what led to it, for people: see the members.
 struct SlamResult {
   struct Point {
-    Eigen::Vector3d position;           ///< world frame = first keyframe
+    Eigen::Vector3d position;                   ///< world frame = first keyframe
     Eigen::Matrix<unsigned char, 3, 1> colour;  ///< RGB
-    int observations = 0;               ///< keyframes that see it
+    int observations = 0;                       ///< keyframes that see it
   };
   struct Gap {
     double lost = 0;       ///< seconds: the first lost frame
@@ -42,9 +42,9 @@ struct SlamResult {
   Trajectory trajectory_live;  ///< the same, as known at the moment of tracking
   Trajectory keyframes;
   std::vector<Point> points;
-  std::vector<Gap> gaps;       ///< losses and recoveries
-  int restarts = 0;            ///< maps given up within their first seconds
-  std::string refusal;         ///< why no map was initialised, empty if one was
+  std::vector<Gap> gaps;  ///< losses and recoveries
+  int restarts = 0;       ///< maps given up within their first seconds
+  std::string refusal;    ///< why no map was initialised, empty if one was
 };
 
 /// Pictures of one moving camera in, trajectory and map out.

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/features2d.hpp>
+
+#include "cairn/datasets/sequence.h"
+#include "cairn/geometry/error.h"
+#include "cairn/output/summary.h"
+#include "cairn/synthetic/demo_scene.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "playback.h"
+
+namespace cairn::app {
+namespace {
+
+constexpr int kDemoFrames = 300;
+constexpr int kWidePicture = 1000;  // pixels; wider ones get twice the features
+
+struct Arguments {
+  std::string subject;
+  std::vector<std::string> data;
+  int seeds = 1;
+  bool json = false;
+};
+
+class DemoFrames : public FrameSource {
+ public:
+  explicit DemoFrames(std::uint64_t seed) : scene_(seed) {}
+  bool next(SourceFrame& frame) override {
+    if (index_ == kDemoFrames) return false;
+    const double t = index_++ / 30.0;
+    frame = {t, scene_.render(t), std::to_string(index_), ""};
+    return true;
+  }
+  std::optional<std::size_t> size() const override { return kDemoFrames; }
+
+ private:
+  DemoScene scene_;
+  int index_ = 0;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Times of the tracked frames of one sequence.
+struct Times {
+  std::string sequence;
+  int features = 0;
+  std::size_t frames = 0;
+  std::vector<FrameRecord> tracked;
+  std::vector<double> orb_ms;
+
+  StageTime stage(const std::string& name) const {
+    const auto stages = stage_times(tracked);
+    const auto found = stages.find(name);
+    return found == stages.end() ? StageTime{} : found->second;
+  }
+  double ratio() const { return orb_ms.empty() ? 0 : stage("total").median_ms / median(orb_ms); }
+};
+
+// OpenCV's own ORB on the same picture, on one thread, as the yardstick of this machine.
+double time_orb(cv::ORB& orb, const cv::Mat& image) {
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+  const auto start = std::chrono::steady_clock::now();
+  orb.detectAndCompute(image, cv::noArray(), keypoints, descriptors);
+  const auto end = std::chrono::steady_clock::now();
+  cv::setNumThreads(threads);
+  return std::chrono::duration<double, std::milli>(end - start).count();
+}
+
+void time_tracking(FrameSource& source, const Camera& camera, std::uint64_t seed, Times& times) {
+  Options options;
+  options.pace = Pace::kLockstep;
+  options.seed = seed;
+  options.features.count = times.features = camera.width() > kWidePicture ? 2000 : 1000;
+  const auto orb = cv::ORB::create(times.features);
+  Slam slam(camera, options);
+  play(source, slam, options.pace, [&](const cv::Mat& image, const FrameResult& result) {
+    ++times.frames;
+    const FrameRecord& record = result.record;
+    if (record.state != FrameState::kTracked) return;
+    times.tracked.push_back(record);
+    times.orb_ms.push_back(time_orb(*orb, image));
+  });
+}
+
+Times time_sequence(const std::string& data, int seeds) {
+  Times times;
+  times.sequence = data.empty() ? "demo scene" : data;
+  for (int seed = 0; seed < seeds && !interrupted(); ++seed) {
+    if (data.empty()) {
+      DemoFrames frames(0);
+      time_tracking(frames, DemoScene(0).camera(), std::uint64_t(seed), times);
+    } else {
+      const Sequence sequence = open_sequence(data);
+      time_tracking(*sequence.frames, camera_of(sequence, data), std::uint64_t(seed), times);
+    }
+  }
+  return times;
+}
+
+nlohmann::json to_json(const Times& times) {
+  nlohmann::json stages;
+  for (const auto& [name, time] : stage_times(times.tracked)) {
+    stages[name] = {{"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}};
+  }
+  return {{"sequence", times.sequence},
+          {"features", times.features},
+          {"frames", times.frames},
+          {"tracked", times.tracked.size()},
+          {"tracking_median_ms", times.stage("total").median_ms},
+          {"tracking_p95_ms", times.stage("total").p95_ms},
+          {"orb_median_ms", median(times.orb_ms)},
+          {"ratio", times.ratio()},
+          {"stages", stages}};
+}
+
+void print_table(const std::vector<Times>& rows) {
+  std::printf(
+      "milliseconds a tracked frame, median / 95th percentile; ratio: tracking over "
+      "cv::ORB on one thread\n\n");
+  std::printf("%-24s %9s  %13s  %13s  %13s  %13s  %8s  %5s\n", "sequence", "tracked", "extract",
+              "predict", "local map", "tracking", "cv::ORB", "ratio");
+  for (const Times& t : rows) {
+    auto cell = [&](const char* stage) {
+      char text[32];
+      const StageTime time = t.stage(stage);
+      std::snprintf(text, sizeof text, "%.2f / %.2f", time.median_ms, time.p95_ms);
+      return std::string(text);
+    };
+    const std::string tracked = std::to_string(t.tracked.size()) + "/" + std::to_string(t.frames);
+    std::string name = t.sequence;
+    if (name.size() > 24) name = "..." + name.substr(name.size() - 21);
+    std::printf("%-24s %9s  %13s  %13s  %13s  %13s  %8.2f  %5.2f\n", name.c_str(), tracked.c_str(),
+                cell("extract").c_str(), cell("predict").c_str(), cell("local_map").c_str(),
+                cell("total").c_str(), median(t.orb_ms), t.ratio());
+  }
+}
+
+int bench_tracking(const Arguments& arguments) {
+  remember_interrupts();
+  const auto data = arguments.data.empty() ? std::vector<std::string>{""} : arguments.data;
+  std::vector<Times> rows;
+  for (const auto& sequence : data) {
+    if (!interrupted()) rows.push_back(time_sequence(sequence, arguments.seeds));
+  }
+  if (arguments.json) {
+    nlohmann::json json{{"subject", "tracking"}, {"rows", nlohmann::json::array()}};
+    for (const Times& times : rows) json["rows"].push_back(to_json(times));
+    std::printf("%s\n", json.dump(2).c_str());
+  } else {
+    print_table(rows);
+  }
+  if (interrupted()) return kInterrupted;
+  const bool tracked =
+      std::all_of(rows.begin(), rows.end(), [](auto& t) { return !t.tracked.empty(); });
+  if (!tracked) std::fprintf(stderr, "cairn: a sequence gave no map, so its row is empty\n");
+  return tracked ? kDone : kNoMap;
+}
+
+}  // namespace
+
+Action add_bench(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("bench", "Prints repeatable tables of speed");
+  command->add_option("subject", arguments->subject, "what to measure")
+      ->required()
+      ->check(CLI::IsMember({"tracking"}));
+  command->add_option("--data", arguments->data, "a sequence, repeatable; default: the demo scene")
+      ->type_name("PATH")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--seeds", arguments->seeds, "runs a sequence, each with another seed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "one JSON object in place of the table");
+  return [arguments] { return bench_tracking(*arguments); };
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,55 @@
+#include "progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cairn::app {
+namespace {
+
+constexpr auto kRedraw = std::chrono::milliseconds(100);
+constexpr std::size_t kBarWidth = 24;
+
+}  // namespace
+
+Progress::Progress(bool wanted, std::optional<std::size_t> frames)
+    : visible_(wanted && isatty(STDERR_FILENO) != 0),
+      frames_(frames),
+      start_(std::chrono::steady_clock::now()),
+      last_drawn_(start_) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::show(const FrameRecord& record) {
+  ++seen_;
+  keyframes_ += record.keyframe;
+  const auto now = std::chrono::steady_clock::now();
+  if (!visible_ || (drawn_ && now - last_drawn_ < kRedraw)) return;
+  last_drawn_ = now;
+  drawn_ = true;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double fps = seconds > 0 ? double(seen_) / seconds : 0;
+  std::string bar(kBarWidth, '.'), all;
+  if (frames_ && *frames_ > 0) {
+    std::fill_n(bar.begin(), std::min<std::size_t>(seen_ * kBarWidth / *frames_, kBarWidth), '#');
+    all = "of " + std::to_string(*frames_);
+  }
+  std::fprintf(stderr, "\r\033[K[%s] %zu %s frames  %.1f fps  %s  %zu keyframes", bar.c_str(),
+               seen_, all.c_str(), fps, std::string(to_string(record.state)).c_str(), keyframes_);
+  std::fflush(stderr);
+}
+
+void Progress::note(const std::string& sentence) {
+  clear();
+  std::fprintf(stderr, "cairn: %s\n", sentence.c_str());
+}
+
+void Progress::clear() {
+  if (!drawn_) return;
+  std::fprintf(stderr, "\r\033[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "cairn/map/frame_record.h"
+
+namespace cairn::app {
+
+/// One line on a terminal that is written over and over; silent where there is no terminal.
+class Progress {
+ public:
+  Progress(bool wanted, std::optional<std::size_t> frames);
+  ~Progress();
+
+  void show(const FrameRecord& record);
+  /// A line of its own, for what happens once.
+  void note(const std::string& sentence);
+
+ private:
+  void clear();
+
+  bool visible_;
+  bool drawn_ = false;
+  std::optional<std::size_t> frames_;
+  std::size_t seen_ = 0, keyframes_ = 0;
+  std::chrono::steady_clock::time_point start_, last_drawn_;
+};
+
+}  // namespace cairn::app

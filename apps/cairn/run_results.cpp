@@ -1,0 +1,230 @@
+#include "run_results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cairn/evaluation/evaluation.h"
+#include "cairn/geometry/error.h"
+#include "cairn/output/atomic_file.h"
+#include "cairn/output/frames_csv.h"
+#include "cairn/output/map_ply.h"
+#include "cairn/output/overlay.h"
+#include "cairn/output/plots.h"
+#include "cairn/output/summary.h"
+#include "cairn/output/trajectory_file.h"
+#include "cairn/output/video_file.h"
+#include "cairn/system/option_table.h"
+
+namespace cairn::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t count(const std::vector<FrameRecord>& frames, FrameState state) {
+  return std::size_t(std::count_if(frames.begin(), frames.end(),
+                                   [&](const FrameRecord& frame) { return frame.state == state; }));
+}
+
+nlohmann::json options_json(Options options) {
+  const OptionTable table(options);
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& key : table.keys()) {
+    // Numbers and truth values look alike in JSON and in the table; anything else is a word.
+    const auto value = nlohmann::json::parse(table.get(key), nullptr, false);
+    json[key] = value.is_discarded() ? nlohmann::json(table.get(key)) : value;
+  }
+  return json;
+}
+
+void write_map(const fs::path& file, const SlamResult& result) {
+  Eigen::AlignedBox3d space;
+  for (const StampedPose& pose : result.trajectory) space.extend(pose.T_wc.translation());
+  // The unit of a map of one camera is arbitrary: what is drawn goes by the size of the path.
+  const double size = space.isEmpty() ? 1 : std::max(space.diagonal().norm(), 1e-6);
+  PlyModel model;
+  for (const auto& point : result.points) model.add_point(point.position, point.colour);
+  model.add_path(result.trajectory, {230, 60, 40}, 0.002 * size);
+  for (const StampedPose& pose : result.keyframes) {
+    model.add_camera(pose.T_wc, 0.02 * size, {40, 110, 230});
+  }
+  model.write(file);
+}
+
+// How the path compares with the truth, if the two can be compared.
+std::optional<EvaluationReport> compare(const RunDescription& run,
+                                        const std::vector<FrameRecord>& frames,
+                                        const SlamResult& result) {
+  if (!run.groundtruth) return std::nullopt;
+  std::vector<double> times;
+  times.reserve(frames.size());
+  for (const FrameRecord& frame : frames) times.push_back(frame.timestamp);
+  try {
+    return evaluate(run.groundtruth->trajectory, result.trajectory, {}, times);
+  } catch (const Error&) {
+    return std::nullopt;  // too few poses; `cairn evaluate` says it
+  }
+}
+
+PlotScene plot_scene(const RunDescription& run, const SlamResult& result,
+                     const std::optional<EvaluationReport>& report) {
+  PlotScene scene;
+  // With a ground truth all is drawn in its frame and unit.
+  const TrajectoryAlignment align = report ? report->alignment : TrajectoryAlignment();
+  auto aligned = [&](Trajectory trajectory) {
+    for (StampedPose& pose : trajectory) pose.T_wc = align * pose.T_wc;
+    return trajectory;
+  };
+  scene.estimate = aligned(result.trajectory);
+  scene.keyframes = aligned(result.keyframes);
+  for (const auto& point : result.points) {
+    scene.points.push_back(align * point.position);
+    scene.point_colours.push_back(point.colour);
+  }
+  if (report) {
+    scene.truth = run.groundtruth->trajectory;
+    scene.view = PlanView::from_cameras(scene.truth);
+  }
+  scene.title = run.name;
+  scene.unit = report ? "m" : "map units";
+  return scene;
+}
+
+void write_plots(const fs::path& folder, const RunDescription& run, const SlamResult& result,
+                 const std::optional<EvaluationReport>& report) {
+  if (result.trajectory.empty()) return;
+  make_output_folder(folder);
+  const PlotScene scene = plot_scene(run, result, report);
+  write_png(folder / "trajectory.png", draw_trajectory_plot(scene));
+  write_png(folder / "map.png", draw_map_plot(scene));
+  if (report) {
+    std::vector<double> times;
+    for (const StampedPose& pose : report->truth) times.push_back(pose.timestamp);
+    write_png(folder / "error.png", draw_error_plot(times, report->errors, run.name));
+  }
+}
+
+RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& frames,
+                     const SlamResult& result, const Playback& playback) {
+  RunSummary summary;
+  summary.version = CAIRN_VERSION;
+  summary.command = run.command;
+  summary.options = options_json(run.options);
+  summary.seed = run.options.seed;
+  summary.sequence = run.sequence;
+  summary.layout = run.layout;
+  if (run.groundtruth) summary.groundtruth = fs::absolute(run.groundtruth->file).string();
+  summary.camera = run.camera.describe() + " (" + run.calibration + ")";
+  summary.outcome = playback.interrupted        ? "interrupted"
+                    : result.trajectory.empty() ? "no map: " + result.refusal
+                                                : "done";
+  summary.frames = frames;
+  for (const auto& gap : result.gaps) {
+    summary.gaps.push_back(
+        {gap.lost, std::isnan(gap.recovered) ? std::nullopt : std::optional(gap.recovered)});
+  }
+  summary.restarts = result.restarts;
+  summary.keyframes = result.keyframes.size();
+  summary.points = result.points.size();
+  if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
+  summary.problems = playback.problems;
+  return summary;
+}
+
+}  // namespace
+
+// The annotated video, and a strip of stills of it for those who cannot play it.
+class RunRecorder::Film {
+ public:
+  Film(const fs::path& folder, double fps) : folder_(folder), video_(folder / "video.mp4", fps) {}
+
+  void add(const cv::Mat& image, const FrameResult& result) {
+    FrameOverlay overlay;
+    for (const auto& f : result.features) overlay.features.push_back({f.x, f.y, f.mapped});
+    overlay.state = to_string(result.record.state);
+    overlay.matches = result.record.inliers;
+    overlay.fps = result.record.total_ms > 0 ? 1000 / result.record.total_ms : 0;
+    overlay.timestamp = result.record.timestamp;
+    const cv::Mat picture = draw_overlay(image, overlay);
+    video_.write(picture);
+    if (count_++ % stride_ != 0) return;
+    stills_.push_back(picture);
+    // Evenly spread over a film whose length is not known: each time there are too many, every
+    // other one goes.
+    if (stills_.size() < 2 * kStills) return;
+    for (std::size_t i = 0; i < kStills; ++i) stills_[i] = stills_[2 * i];
+    stills_.resize(kStills);
+    stride_ *= 2;
+  }
+
+  void finish() {
+    video_.finish();
+    if (stills_.empty()) return;
+    std::vector<cv::Mat> chosen;
+    const std::size_t n = std::min(kStills, stills_.size());
+    for (std::size_t i = 0; i < n; ++i) chosen.push_back(stills_[i * stills_.size() / n]);
+    write_strip(folder_ / "strip.jpg", chosen, 3);
+  }
+
+ private:
+  static constexpr std::size_t kStills = 6;
+  fs::path folder_;
+  VideoFile video_;
+  std::vector<cv::Mat> stills_;
+  std::size_t count_ = 0, stride_ = 1;
+};
+
+RunRecorder::RunRecorder(const RunDescription& run, bool video, double fps)
+    : run_(run),
+      start_(std::chrono::steady_clock::now()),
+      film_(video ? std::make_unique<Film>(run.folder, fps) : nullptr) {}
+
+RunRecorder::~RunRecorder() = default;
+
+void RunRecorder::add(const cv::Mat& image, const FrameResult& result) {
+  if (film_ && !image.empty()) film_->add(image, result);
+}
+
+void RunRecorder::write(const std::vector<FrameRecord>& frames, const SlamResult& result,
+                        const Playback& playback) {
+  const fs::path& folder = run_.folder;
+  write_trajectory(folder / "trajectory.txt", result.trajectory);
+  write_trajectory(folder / "trajectory_live.txt", result.trajectory_live);
+  write_trajectory(folder / "keyframes.txt", result.keyframes);
+  write_frames_csv(folder / "frames.csv", frames);
+  write_map(folder / "map.ply", result);
+  const auto report = compare(run_, frames, result);
+  write_plots(folder / "plots", run_, result, report);
+  if (film_) film_->finish();
+
+  RunSummary summary = summarize(run_, frames, result, playback);
+  if (report) summary.coverage = report->coverage;
+  const auto duration = std::chrono::steady_clock::now() - start_;
+  summary.duration_s = std::chrono::duration<double>(duration).count();
+  // Last: a folder with a summary is a whole one.
+  write_summary(folder / "summary.json", summary);
+}
+
+void print_outcome(const RunDescription& run, const std::vector<FrameRecord>& frames,
+                   const SlamResult& result) {
+  const std::size_t tracked = count(frames, FrameState::kTracked);
+  const auto stages = stage_times(frames);
+  const auto total = stages.find("total");
+  std::printf("  frames     %8zu\n", frames.size());
+  std::printf("  tracked    %8zu  (%.1f %%)\n", tracked,
+              frames.empty() ? 0.0 : 100.0 * double(tracked) / double(frames.size()));
+  for (const FrameState state : {FrameState::kLost, FrameState::kSkipped, FrameState::kDropped}) {
+    const std::size_t n = count(frames, state);
+    if (n > 0) std::printf("  %-10s %8zu\n", std::string(to_string(state)).c_str(), n);
+  }
+  std::printf("  keyframes  %8zu\n", result.keyframes.size());
+  std::printf("  points     %8zu\n", result.points.size());
+  if (total != stages.end()) {
+    std::printf("  tracking   %8.1f  ms a frame (median), %.1f ms (95th percentile)\n",
+                total->second.median_ms, total->second.p95_ms);
+  }
+  std::printf("  results    %s\n", run.folder.c_str());
+}
+
+}  // namespace cairn::app
