@@ -26,9 +26,8 @@ View::View(const Camera& camera, int levels, double scale, double sigma_px)
   constexpr int kSteps = 32;
   for (int i = 0; i <= kSteps; ++i) {
     const double a = double(i) / kSteps;
-    for (const Eigen::Vector2d& border :
-         {Eigen::Vector2d(a * w, 0), Eigen::Vector2d(a * w, h), Eigen::Vector2d(0, a * h),
-          Eigen::Vector2d(w, a * h)}) {
+    for (const Eigen::Vector2d& border : {Eigen::Vector2d(a * w, 0), Eigen::Vector2d(a * w, h),
+                                          Eigen::Vector2d(0, a * h), Eigen::Vector2d(w, a * h)}) {
       Eigen::Vector2d p;
       if (!pinhole_pixel(camera, border, p)) continue;
       min_x_ = std::min(min_x_, p.x());
@@ -62,8 +61,7 @@ Undistorter::Undistorter(const Camera& camera) {
   }
 }
 
-void Undistorter::apply(Features& features,
-                        const std::function<void(float, float)>& at) const {
+void Undistorter::apply(Features& features, const std::function<void(float, float)>& at) const {
   if (!needed_) {
     for (const Keypoint& kp : features.keypoints) at(kp.x, kp.y);
     return;

@@ -60,8 +60,8 @@ struct Frame {
 class Undistorter {
  public:
   explicit Undistorter(const Camera& camera);
-  /// Moves the keypoints in place; those without a pinhole position are removed. `at(x, y)` is called
-  /// with the pixel in the picture of each one that stays, in order.
+  /// Moves the keypoints in place; those without a pinhole position are removed. `at(x, y)` is
+  /// called with the pixel in the picture of each one that stays, in order.
   void apply(Features& features, const std::function<void(float, float)>& at) const;
 
  private:

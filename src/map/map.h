@@ -30,11 +30,11 @@ struct Observation {
 
 struct MapPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world, in units of the map
-  Descriptor descriptor{};   ///< of all observations the one nearest to the others
+  Descriptor descriptor{};  ///< of all observations the one nearest to the others
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< mean direction camera to point, unit
   float base_distance = 0;  ///< distance at which it would show in octave 0
   std::vector<Observation> observations;
-  std::uint32_t born = 0;  ///< sequence number of the keyframe that made it
+  std::uint32_t born = 0;                ///< sequence number of the keyframe that made it
   std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
   Eigen::Matrix<unsigned char, 3, 1> colour = Eigen::Matrix<unsigned char, 3, 1>::Zero();  ///< RGB
 };
@@ -60,7 +60,8 @@ class Map {
 
   PointId add_point(const Eigen::Vector3d& position);
   void erase_point(PointId id);
-  /// Both directions of the link. The keypoint must be free, the point not yet seen by the keyframe.
+  /// Both directions of the link. The keypoint must be free, the point not yet seen by the
+  /// keyframe.
   void add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint);
   /// Unlinks; a point that is left with fewer than two observations is erased.
   void erase_observation(PointId point, KeyframeId keyframe);

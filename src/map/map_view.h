@@ -24,14 +24,14 @@ struct MapView {
   };
 
   std::uint64_t version = 0;
-  KeyframeId reference;                 ///< the keyframe it was made around
+  KeyframeId reference;  ///< the keyframe it was made around
   std::shared_ptr<const Frame> reference_frame;
-  std::vector<std::uint32_t> reference_points;  ///< a keypoint: index into points, or kNone
-  int reference_tracked = 0;            ///< points of the reference
-  double median_depth = 0;              ///< of the points that the reference sees
+  std::vector<std::uint32_t> reference_points;    ///< a keypoint: index into points, or kNone
+  int reference_tracked = 0;                      ///< points of the reference
+  double median_depth = 0;                        ///< of the points that the reference sees
   std::size_t map_keyframes = 0, map_points = 0;  ///< of the whole map
-  std::vector<Point> points;            ///< in order of ids
-  std::vector<KeyframePose> keyframes;  ///< local ones, in order of ids
+  std::vector<Point> points;                      ///< in order of ids
+  std::vector<KeyframePose> keyframes;            ///< local ones, in order of ids
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
 

@@ -49,22 +49,11 @@ bool Mapper::initialize(const InitialPair& initial) {
 }
 
 KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
+  // The reference may have been culled since the frame was tracked.
   const Keyframe* reference = map_.keyframes().find(candidate.reference);
-  SE3 T_wr;
-  if (reference != nullptr) {
-    T_wr = reference->T_wc;
-  } else {  // culled in the meantime: go up to where it was
-    SE3 T_pr;
-    KeyframeId id = candidate.reference;
-    while (!map_.keyframes().contains(id)) {
-      const auto it = std::find_if(buried_.begin(), buried_.end(),
-                                   [&](const BuriedKeyframe& b) { return b.id == id; });
-      if (it == buried_.end()) break;
-      T_pr = it->T_pk * T_pr;
-      id = it->parent;
-    }
-    T_wr = map_.keyframes()[id].T_wc * T_pr;
-  }
+  const SE3 T_wr = reference != nullptr
+                       ? reference->T_wc
+                       : KeyframeGenealogy(map_, buried_).T_wc(candidate.reference).value();
   current_ = map_.add_keyframe(candidate.frame, T_wr * candidate.T_rc);
   Keyframe& keyframe = map_.keyframes()[current_];
   for (std::uint32_t i = 0; i < candidate.points.size(); ++i) {
@@ -76,8 +65,8 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   }
   retrieval_.add(current_.slot, keyframe.frame->features);
   cull_recent_points();
-  const std::vector<PointId> created =
-      create_points(map_, current_, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
+  const std::vector<PointId> created = create_points(
+      map_, current_, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
   recent_.insert(recent_.end(), created.begin(), created.end());
   const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused", keyframe.sequence,
@@ -104,9 +93,8 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort);
   if (options_.refine_lens) {
     summary = adjust_fully(map_, options_.adjustment, true, abort);
-    const auto& v = map_.lens().values;
-    spdlog::info("lens: {}, focal x{:.4f} k1 {:.4f} k2 {:.4f} c {:.2f} {:.2f}", summary.to_string(), std::exp(v[0]), v[1], v[2], v[3], v[4]);
   }
+  resect_buried_keyframes(map_, buried_);
   publish(map_.newest());
   return summary;
 }
@@ -132,16 +120,15 @@ void Mapper::publish(KeyframeId reference) {
   view_ = make_view(map_, reference, options_.max_local_points, ++version_);
 }
 
-// New points are on probation: they must be found where they should be, and seen by a third keyframe
-// once two more keyframes have had the chance.
+// New points are on probation: they must be found where they should be, and seen by a third
+// keyframe once two more keyframes have had the chance.
 void Mapper::cull_recent_points() {
   const std::uint32_t now = map_.keyframes()[current_].sequence;
   std::erase_if(recent_, [&](PointId id) {
     const MapPoint* p = map_.points().find(id);
     if (p == nullptr) return true;
     const std::uint32_t age = now - p->born;
-    if (p->found < kMinFoundRatio * p->visible ||
-        (age >= 2 && p->observations.size() <= 2)) {
+    if (p->found < kMinFoundRatio * p->visible || (age >= 2 && p->observations.size() <= 2)) {
       map_.erase_point(id);
       return true;
     }
@@ -168,11 +155,8 @@ void Mapper::cull_keyframes() {
       redundant += others >= 3;
     }
     if (redundant <= options_.redundancy * seen) continue;
-    const auto neighbours = map_.covisible(id, 1);
-    const KeyframeId parent = neighbours.front().first;
-    buried_.push_back({id, parent, map_.keyframes()[parent].T_wc.inverse() * keyframe.T_wc});
     retrieval_.remove(id.slot);
-    map_.erase_keyframe(id);
+    buried_.push_back(bury_keyframe(map_, id));
   }
 }
 

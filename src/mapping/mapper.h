@@ -12,32 +12,27 @@
 #include "cairn/map/initial_pair.h"
 #include "cairn/map/map.h"
 #include "cairn/map/map_view.h"
+#include "cairn/mapping/buried_keyframe.h"
 #include "cairn/optimization/map_adjustment.h"
 
 namespace cairn {
 
 struct MappingOptions {
-  int neighbours = 20;              ///< keyframes that new points are triangulated with
-  double min_parallax_deg = 1.0;    ///< between the rays of a new point
-  double match_ratio = 0.8;         ///< of a new point: nearest to second nearest descriptor
-  int max_local_points = 4000;      ///< points in a published view
-  double redundancy = 0.9;          ///< share of its points seen elsewhere that makes a keyframe go
-  bool refine_lens = true;          ///< the full adjustment estimates what the calibration got wrong
+  int neighbours = 20;            ///< keyframes that new points are triangulated with
+  double min_parallax_deg = 1.0;  ///< between the rays of a new point
+  double match_ratio = 0.8;       ///< of a new point: nearest to second nearest descriptor
+  int max_local_points = 4000;    ///< points in a published view
+  double redundancy = 0.9;        ///< share of its points seen elsewhere that makes a keyframe go
+  bool refine_lens = true;        ///< the full adjustment estimates what the calibration got wrong
   AdjustmentOptions adjustment;
 };
 
 /// A frame that is to become a keyframe, as tracked.
 struct KeyframeCandidate {
   std::shared_ptr<const Frame> frame;
-  KeyframeId reference;         ///< T_wc = T_w,reference · T_rc
+  KeyframeId reference;  ///< T_wc = T_w,reference · T_rc
   SE3 T_rc;
   std::vector<PointId> points;  ///< one a keypoint
-};
-
-/// A keyframe that is gone, and where it was from one that stays.
-struct BuriedKeyframe {
-  KeyframeId id, parent;
-  SE3 T_pk;  ///< keyframe to parent
 };
 
 class Mapper {

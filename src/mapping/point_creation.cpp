@@ -7,8 +7,8 @@
 namespace cairn {
 namespace {
 
-constexpr int kMaxDistance = 50;         // Hamming
-constexpr double kEpipolarGate = 3.84;   // χ², 1 degree of freedom, 95 %
+constexpr int kMaxDistance = 50;        // Hamming
+constexpr double kEpipolarGate = 3.84;  // χ², 1 degree of freedom, 95 %
 constexpr double kReprojectionGate = 5.991;
 constexpr double kMinBaselineRatio = 0.01;  // of the median depth
 constexpr double kSizeTolerance = 1.8;      // between what distance and octaves say
@@ -34,7 +34,11 @@ bool reprojects(const View& view, const Eye& eye, const Eigen::Vector3d& X_w,
 class PairMatcher {
  public:
   PairMatcher(Map& map, KeyframeId id1, KeyframeId id2, const PointCreationOptions& options)
-      : map_(map), id1_(id1), id2_(id2), a_(map.keyframes()[id1]), b_(map.keyframes()[id2]),
+      : map_(map),
+        id1_(id1),
+        id2_(id2),
+        a_(map.keyframes()[id1]),
+        b_(map.keyframes()[id2]),
         min_parallax_(options.min_parallax_deg * M_PI / 180),
         ratio_(options.ratio) {
     const SE3 T_21 = b_.T_cw * a_.T_cw.inverse();
@@ -82,7 +86,8 @@ class PairMatcher {
     const Descriptor& d = a_.frame.features.descriptors[i];
     for (std::size_t k = 0; k < n; ++k) {
       if (!near_line_[k]) continue;
-      best.offer(static_cast<std::uint32_t>(k), hamming(d, b_.frame.features.descriptors[free_[k]]));
+      best.offer(static_cast<std::uint32_t>(k),
+                 hamming(d, b_.frame.features.descriptors[free_[k]]));
     }
     return best.accepted(kMaxDistance, ratio_) ? static_cast<int>(best.index) : -1;
   }
@@ -97,7 +102,7 @@ class PairMatcher {
     if (!X.allFinite() || !reprojects(view, a_, X, i) || !reprojects(view, b_, X, j)) return false;
     const double d1 = (X - a_.keyframe.T_wc.translation()).norm();
     const double d2 = (X - b_.keyframe.T_wc.translation()).norm();
-    const double size_ratio = 
+    const double size_ratio =
         d1 * view.scale(a_.frame.octave(i)) / (d2 * view.scale(b_.frame.octave(j)));
     if (size_ratio > kSizeTolerance || size_ratio * kSizeTolerance < 1) return false;
     const PointId id = map_.add_point(X);
@@ -134,8 +139,9 @@ std::vector<PointId> create_points(Map& map, KeyframeId keyframe,
   const std::size_t n = std::min<std::size_t>(neighbours.size(), options.neighbours);
   for (std::size_t k = 0; k < n; ++k) {
     const KeyframeId other = neighbours[k].first;
-    const double baseline = (map.keyframes()[keyframe].T_wc.translation() -
-                             map.keyframes()[other].T_wc.translation()).norm();
+    const double baseline =
+        (map.keyframes()[keyframe].T_wc.translation() - map.keyframes()[other].T_wc.translation())
+            .norm();
     if (baseline < kMinBaselineRatio * map.depth_quantile(other, 0.5)) continue;
     PairMatcher(map, keyframe, other, options).run(created);
   }

@@ -15,14 +15,14 @@ constexpr int kSecondNeighbours = 5;
 int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, const Visibility& v,
                   double radius) {
   BestMatch best;
-  frame.grid.for_each(
-      {static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y())},
-      static_cast<float>(radius * view.scale(v.octave)), v.octave - 1, v.octave + 1,
-      [&](std::uint32_t i) {
-        const double sigma = view.sigma(frame.octave(i));
-        if ((frame.pixel(i) - v.pixel).squaredNorm() > kGate * sigma * sigma) return;
-        best.offer(i, hamming(point.descriptor, frame.features.descriptors[i]));
-      });
+  frame.grid.for_each({static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y())},
+                      static_cast<float>(radius * view.scale(v.octave)), v.octave - 1, v.octave + 1,
+                      [&](std::uint32_t i) {
+                        const double sigma = view.sigma(frame.octave(i));
+                        if ((frame.pixel(i) - v.pixel).squaredNorm() > kGate * sigma * sigma)
+                          return;
+                        best.offer(i, hamming(point.descriptor, frame.features.descriptors[i]));
+                      });
   return best.distance <= kMaxDistance ? static_cast<int>(best.index) : -1;
 }
 
@@ -57,7 +57,8 @@ int fuse_into(Map& map, KeyframeId id, std::span<const PointId> points, double r
 int fuse_neighbourhood(Map& map, KeyframeId id, int neighbours) {
   std::vector<KeyframeId> targets;
   auto add = [&](KeyframeId k) {
-    if (k != id && std::find(targets.begin(), targets.end(), k) == targets.end()) targets.push_back(k);
+    if (k != id && std::find(targets.begin(), targets.end(), k) == targets.end())
+      targets.push_back(k);
   };
   const auto direct = map.covisible(id, 10);
   const std::size_t n = std::min<std::size_t>(direct.size(), neighbours);

@@ -9,8 +9,8 @@
 namespace cairn {
 
 struct AdjustmentOptions {
-  int window = 20;            ///< keyframes moved by a local adjustment
-  int fixed = 30;             ///< keyframes that hold it, at most
+  int window = 20;  ///< keyframes moved by a local adjustment
+  int fixed = 30;   ///< keyframes that hold it, at most
   int local_iterations = 8;
   int full_iterations = 40;
 };

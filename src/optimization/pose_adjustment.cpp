@@ -8,7 +8,7 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kGate = 5.991;      // χ², 2 degrees of freedom, 95 %
+constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
 constexpr double kMinDepth = 1e-6;
 constexpr int kRounds = 4;
 constexpr int kIterations = 6;

@@ -24,8 +24,8 @@ struct PoseAdjustmentSummary {
   double rms = 0;  ///< of the inliers, in σ
 };
 
-/// Motion-only adjustment: the camera pose alone, from points held fixed. Gauss-Newton on se(3) with
-/// Huber weights, in rounds; after each round observations beyond the 95 % gate of their χ²
+/// Motion-only adjustment: the camera pose alone, from points held fixed. Gauss-Newton on se(3)
+/// with Huber weights, in rounds; after each round observations beyond the 95 % gate of their χ²
 /// (5.99 at 2 degrees of freedom) are set aside, and come back if they agree later.
 /// `T_wc` is start and result; `inlier` gets one entry an observation.
 PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,

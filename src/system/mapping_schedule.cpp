@@ -97,8 +97,8 @@ void MappingSchedule::run_question(const Question& question) {
   for (const auto& match : mapper_->retrieval().query(question.frame->features, kCandidates)) {
     candidates.push_back(mapper_->keyframe_in_slot(match.id));
   }
-  Answer answer{question.frame, cairn::relocalize(*question.frame, map, candidates, tracking_,
-                                                  question.seed)};
+  Answer answer{question.frame,
+                cairn::relocalize(*question.frame, map, candidates, tracking_, question.seed)};
   const std::lock_guard lock(mutex_);
   answer_ = std::move(answer);
   question_.reset();

@@ -12,11 +12,35 @@ OptionTable::OptionTable(Options& o) {
   add("threads", o.threads, "threads", {0, 1024}, "threads to work with; 0: all cores");
   add("seed", o.seed, "what all random choices are drawn from");
 
-  add("features.count", o.features.count, "keypoints", {100, 20000}, "keypoints a picture, about");
+  add("features.count", o.features.count, "keypoints", {0, 20000}, "keypoints a picture, about; 0: by its size, 1000 for each 640 pixels of width");
   add("features.levels", o.features.levels, "levels", {1, 16}, "levels of the image pyramid");
   add("features.scale", o.features.scale, "", {1.01, 2.0}, "size ratio between two levels of the pyramid");
   add("features.threshold", o.features.threshold, "grey levels", {1, 254}, "FAST: difference that makes a good corner");
   add("features.weak_threshold", o.features.weak_threshold, "grey levels", {1, 254}, "FAST: accepted where a region has no good corner");
+  add("features.subpixel", o.features.subpixel, "refine keypoints below the pixel");
+
+  add("initialization.min_matches", o.initialization.min_matches, "keypoints", {20, 5000}, "found in both of the first two pictures of a map");
+  add("initialization.min_points", o.initialization.min_points, "points", {20, 5000}, "that a map starts with, at least");
+  add("initialization.min_parallax_deg", o.initialization.min_parallax_deg, "degrees", {0.1, 30}, "between the rays to a point of the first two pictures");
+  add("initialization.search_radius", o.initialization.search_radius, "pixels", {5, 500}, "how far a keypoint may move from frame to frame");
+  add("initialization.max_wait", o.initialization.max_wait, "seconds", {0.1, 60}, "how long a first picture waits for its partner");
+
+  add("tracking.sigma_px", o.tracking.sigma_px, "pixels", {0.1, 10}, "standard deviation of a keypoint of the finest octave");
+  add("tracking.min_inliers", o.tracking.min_inliers, "points", {6, 1000}, "that must agree with a pose; with fewer the camera is lost");
+  add("tracking.min_prediction_inliers", o.tracking.min_prediction_inliers, "points", {4, 1000}, "of the last frame that must agree with the predicted motion");
+  add("tracking.search_radius", o.tracking.search_radius, "pixels", {2, 200}, "around the place that the motion predicts");
+  add("tracking.keyframe_ratio", o.tracking.keyframe_ratio, "", {0.1, 1}, "a new keyframe once fewer of the last one's points are seen");
+  add("tracking.max_keyframe_gap", o.tracking.max_keyframe_gap, "seconds", {0.05, 60}, "longest time without a keyframe");
+
+  add("mapping.neighbours", o.mapping.neighbours, "keyframes", {1, 100}, "that new points are triangulated with");
+  add("mapping.min_parallax_deg", o.mapping.min_parallax_deg, "degrees", {0.1, 30}, "between the rays of a new point");
+  add("mapping.match_ratio", o.mapping.match_ratio, "", {0.3, 1}, "of a new point: distance of its descriptor over that of the next best");
+  add("mapping.redundancy", o.mapping.redundancy, "", {0.5, 1}, "a keyframe goes when this share of its points is seen by three others");
+  add("mapping.refine_lens", o.mapping.refine_lens, "estimate in the full adjustment what the calibration got wrong");
+  add("mapping.window", o.mapping.adjustment.window, "keyframes", {3, 200}, "that a local adjustment moves");
+  add("mapping.fixed", o.mapping.adjustment.fixed, "keyframes", {2, 500}, "around them that hold it, at most");
+  add("mapping.local_iterations", o.mapping.adjustment.local_iterations, "steps", {1, 100}, "of a local adjustment, at most");
+  add("mapping.full_iterations", o.mapping.adjustment.full_iterations, "steps", {1, 500}, "of the full adjustment, at most");
   // clang-format on
 }
 

@@ -14,11 +14,12 @@
 namespace cairn {
 namespace {
 
-constexpr double kYoungMap = 4.0;      // seconds: a map lost so early is not worth going back to
-constexpr int kRestartAfter = 8;       // lost frames, before a young map is given up
+constexpr double kYoungMap = 4.0;  // seconds: a map lost so early is not worth going back to
+constexpr int kRestartAfter = 8;   // lost frames, before a young map is given up
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 }  // namespace
@@ -128,10 +129,12 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp) {
     const TrackedFrame& tracked = s.tracker.last();
     for (std::size_t i = 0; i < tracked.frame->size(); ++i) {
       const Keypoint& kp = tracked.frame->features.keypoints[i];
-      result.features.push_back({kp.x, kp.y, i < tracked.points.size() && tracked.points[i].valid()});
+      result.features.push_back(
+          {kp.x, kp.y, i < tracked.points.size() && tracked.points[i].valid()});
     }
   } else {
-    for (const Keypoint& kp : frame->features.keypoints) result.features.push_back({kp.x, kp.y, false});
+    for (const Keypoint& kp : frame->features.keypoints)
+      result.features.push_back({kp.x, kp.y, false});
   }
   s.records.push_back(record);
   return result;
@@ -200,7 +203,8 @@ bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame, Fr
   const std::optional<MappingSchedule::Answer> answer = mapping->take_relocalization();
   record.predict_ms = milliseconds_since(start);
   if (!answer || !answer->found) return false;
-  tracker.start_from(answer->frame, answer->found->T_wc, answer->found->view, answer->found->points);
+  tracker.start_from(answer->frame, answer->found->T_wc, answer->found->view,
+                     answer->found->points);
   record.inliers = record.matches = answer->found->inliers;
   // In realtime the answer is for an earlier frame: the present one is tracked from there.
   if (answer->frame != frame && !track(frame, record)) return false;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMaxDistance = 60;  // Hamming
 constexpr double kRatio = 0.9;
-constexpr int kMaxOctave = 2;     // coarse keypoints are too uncertain to start from
+constexpr int kMaxOctave = 2;  // coarse keypoints are too uncertain to start from
 
 }  // namespace
 
@@ -28,13 +28,14 @@ int Initializer::follow(const Frame& frame) {
     const int octave = reference_->octave(i);
     if (octave > kMaxOctave) continue;
     BestMatch best;
-    frame.grid.for_each({followed_[i].x(), followed_[i].y()},
-                        static_cast<float>(options_.search_radius), octave, octave,
-                        [&](std::uint32_t j) {
-                          best.offer(j, hamming(reference_->features.descriptors[i],
-                                                frame.features.descriptors[j]));
-                        });
-    if (!best.accepted(kMaxDistance, kRatio) || best.distance >= owner_distance[best.index]) continue;
+    frame.grid.for_each(
+        {followed_[i].x(), followed_[i].y()}, static_cast<float>(options_.search_radius), octave,
+        octave, [&](std::uint32_t j) {
+          best.offer(j,
+                     hamming(reference_->features.descriptors[i], frame.features.descriptors[j]));
+        });
+    if (!best.accepted(kMaxDistance, kRatio) || best.distance >= owner_distance[best.index])
+      continue;
     if (owner[best.index] >= 0) match_[owner[best.index]] = -1;
     owner[best.index] = static_cast<int>(i);
     owner_distance[best.index] = best.distance;
@@ -51,7 +52,7 @@ int Initializer::follow(const Frame& frame) {
   for (std::size_t i = 0; i < match_.size(); ++i) {
     if (match_[i] < 0) continue;
     if (!rotation.consistent(reference_->features.keypoints[i].angle,
-                         frame.features.keypoints[match_[i]].angle)) {
+                             frame.features.keypoints[match_[i]].angle)) {
       match_[i] = -1;
       continue;
     }
@@ -74,7 +75,8 @@ std::optional<InitialPair> Initializer::add(std::shared_ptr<const Frame> frame) 
   }
   const int matches = follow(*frame);
   if (matches < options_.min_matches) {
-    refusal_ = "only " + std::to_string(matches) + " keypoints were found again in the next pictures";
+    refusal_ =
+        "only " + std::to_string(matches) + " keypoints were found again in the next pictures";
     start(std::move(frame));
     return std::nullopt;
   }
@@ -98,8 +100,8 @@ std::optional<InitialPair> Initializer::add(std::shared_ptr<const Frame> frame) 
   InitialPair pair{reference_, frame, result.T_21, {}};
   for (std::size_t k = 0; k < keypoints1.size(); ++k) {
     if (!result.triangulated[k]) continue;
-    pair.points.push_back({keypoints1[k], static_cast<std::uint32_t>(match_[keypoints1[k]]),
-                           result.points[k]});
+    pair.points.push_back(
+        {keypoints1[k], static_cast<std::uint32_t>(match_[keypoints1[k]]), result.points[k]});
   }
   refusal_.clear();
   return pair;

@@ -11,15 +11,15 @@
 namespace cairn {
 
 struct InitializerOptions {
-  int min_matches = 100;         ///< between the two pictures
-  int min_points = 60;           ///< triangulated
-  double min_parallax_deg = 1.2; ///< median angle between the two rays to a point
-  double search_radius = 100;    ///< pixels that a keypoint may move from frame to frame
-  double max_wait = 2.0;         ///< seconds that a first picture waits for its partner
+  int min_matches = 100;          ///< between the two pictures
+  int min_points = 60;            ///< triangulated
+  double min_parallax_deg = 1.2;  ///< median angle between the two rays to a point
+  double search_radius = 100;     ///< pixels that a keypoint may move from frame to frame
+  double max_wait = 2.0;          ///< seconds that a first picture waits for its partner
 };
 
-/// Finds the pair of frames that a monocular map starts from: a reference is kept, its keypoints are
-/// followed from frame to frame, until two-view geometry explains their motion well.
+/// Finds the pair of frames that a monocular map starts from: a reference is kept, its keypoints
+/// are followed from frame to frame, until two-view geometry explains their motion well.
 class Initializer {
  public:
   Initializer(const View& view, const InitializerOptions& options, std::uint64_t seed);

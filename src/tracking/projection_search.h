@@ -16,7 +16,7 @@ namespace cairn {
 struct ExpectedPoint {
   std::uint32_t index = 0;  ///< of the point, in the caller's terms
   Eigen::Vector2f pixel;
-  float radius = 0;         ///< pixels: how far from it to look
+  float radius = 0;  ///< pixels: how far from it to look
   std::int16_t min_octave = 0, max_octave = 0;
   const Descriptor* descriptor = nullptr;
 };

@@ -14,15 +14,17 @@ constexpr int kMinResectionInliers = 10;
 class Attempt {
  public:
   Attempt(const Frame& frame, const Map& map, KeyframeId candidate, const TrackingOptions& options)
-      : frame_(frame), view_(map.view()), map_(make_view(map, candidate, options.max_local_points, 0)) {
+      : frame_(frame),
+        view_(map.view()),
+        map_(make_view(map, candidate, options.max_local_points, 0)) {
     points_.assign(frame.size(), kNoPoint);
   }
 
   bool match_by_appearance() {
     int count = 0;
     MatchOptions match_options;
-    for (const auto& m : match_mutual(map_->reference_frame->features, frame_.features,
-                                      match_options)) {
+    for (const auto& m :
+         match_mutual(map_->reference_frame->features, frame_.features, match_options)) {
       const std::uint32_t point = map_->reference_points[m.first];
       if (point == kNoPoint) continue;
       points_[m.second] = point;

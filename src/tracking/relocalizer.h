@@ -17,9 +17,9 @@ struct Relocalization {
   int inliers = 0;
 };
 
-/// Finds a frame in the map: descriptors against each candidate keyframe (by appearance, the likeliest
-/// first), resection by P3P within RANSAC, then the points around that keyframe by projection. Pure:
-/// it changes nothing. `seed` steers the random samples.
+/// Finds a frame in the map: descriptors against each candidate keyframe (by appearance, the
+/// likeliest first), resection by P3P within RANSAC, then the points around that keyframe by
+/// projection. Pure: it changes nothing. `seed` steers the random samples.
 std::optional<Relocalization> relocalize(const Frame& frame, const Map& map,
                                          std::span<const KeyframeId> candidates,
                                          const TrackingOptions& options, std::uint64_t seed);

@@ -20,8 +20,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-constexpr int kMinMatches = 20;         // of the motion model, before a wider search
-constexpr int kCautiousFrames = 3;      // after a (re)start, search wider
+constexpr int kMinMatches = 20;     // of the motion model, before a wider search
+constexpr int kCautiousFrames = 3;  // after a (re)start, search wider
 constexpr double kFrontalCosine = 0.998;
 
 }  // namespace
@@ -40,7 +40,8 @@ void Tracker::start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
   last_.T_rc = view->pose_of(view->reference).value().inverse() * T_wc;
   last_.points = points;
   last_points_.clear();
-  for (const PointId id : points) last_points_.push_back(id.valid() ? view->index_of(id) : kNoPoint);
+  for (const PointId id : points)
+    last_points_.push_back(id.valid() ? view->index_of(id) : kNoPoint);
   has_velocity_ = false;
   frames_since_start_ = 0;
   keyframe_made();
@@ -174,8 +175,7 @@ bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
         predict_visibility(view_, T_cw, camera, p.position, p.normal, p.base_distance);
     if (!v.visible) continue;
     last_.visible.push_back(p.id);
-    const double radius =
-        widen * (v.cosine > kFrontalCosine ? 2.5 : 4.0) * view_.scale(v.octave);
+    const double radius = widen * (v.cosine > kFrontalCosine ? 2.5 : 4.0) * view_.scale(v.octave);
     expected_.push_back({i, v.pixel.cast<float>(), static_cast<float>(radius),
                          static_cast<std::int16_t>(v.octave - 1),
                          static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
@@ -190,12 +190,11 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc) {
   observed_keypoints_.clear();
   for (std::uint32_t i = 0; i < current_points_.size(); ++i) {
     if (current_points_[i] == kNoPoint) continue;
-    observations_.push_back({map_->points[current_points_[i]].position, frame.pixel(i),
-                             view_.sigma(frame.octave(i))});
+    observations_.push_back(
+        {map_->points[current_points_[i]].position, frame.pixel(i), view_.sigma(frame.octave(i))});
     observed_keypoints_.push_back(i);
   }
-  const PoseAdjustmentSummary summary =
-      adjust_pose(observations_, view_.pinhole(), T_wc, inlier_);
+  const PoseAdjustmentSummary summary = adjust_pose(observations_, view_.pinhole(), T_wc, inlier_);
   for (std::size_t k = 0; k < observed_keypoints_.size(); ++k) {
     if (!inlier_[k]) current_points_[observed_keypoints_[k]] = kNoPoint;
   }
@@ -203,8 +202,7 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc) {
 }
 
 bool Tracker::wants_keyframe(bool mapper_idle) const {
-  const bool long_ago =
-      last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
+  const bool long_ago = last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
   const bool weak = last_.inliers < options_.keyframe_ratio * map_->reference_tracked;
   const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
   if (last_.inliers < 15) return false;

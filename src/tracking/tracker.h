@@ -12,24 +12,24 @@
 namespace cairn {
 
 struct TrackingOptions {
-  double sigma_px = 1.0;           ///< of the position of a keypoint of octave 0
-  int min_inliers = 30;            ///< points that must agree with a pose
-  int min_prediction_inliers = 12; ///< points of the last frame that must agree with the prediction
-  double search_radius = 15;       ///< pixels around the prediction of the motion model
-  int max_local_points = 4000;     ///< points of the map that a frame is compared with
-  double keyframe_ratio = 0.9;     ///< a new keyframe when fewer of the reference's points are seen
-  double max_keyframe_gap = 1.0;   ///< seconds without a keyframe
-  int max_initial_frames = 60;     ///< frames that the first picture waits for a second view
+  double sigma_px = 1.0;  ///< of the position of a keypoint of octave 0
+  int min_inliers = 30;   ///< points that must agree with a pose
+  int min_prediction_inliers =
+      12;                         ///< points of the last frame that must agree with the prediction
+  double search_radius = 15;      ///< pixels around the prediction of the motion model
+  int max_local_points = 4000;    ///< points of the map that a frame is compared with
+  double keyframe_ratio = 0.9;    ///< a new keyframe when fewer of the reference's points are seen
+  double max_keyframe_gap = 1.0;  ///< seconds without a keyframe
 };
 
 /// What the tracker found out about one frame.
 struct TrackedFrame {
   std::shared_ptr<const Frame> frame;
   SE3 T_wc;
-  KeyframeId reference;   ///< keyframe that carries the frame
-  SE3 T_rc;               ///< camera to reference keyframe
-  std::vector<PointId> points;  ///< one a keypoint: inliers
-  std::vector<PointId> visible; ///< points that should have been seen
+  KeyframeId reference;          ///< keyframe that carries the frame
+  SE3 T_rc;                      ///< camera to reference keyframe
+  std::vector<PointId> points;   ///< one a keypoint: inliers
+  std::vector<PointId> visible;  ///< points that should have been seen
   int matches = 0, inliers = 0;
 };
 
