@@ -1,16 +1,32 @@
 #include "interrupt.h"
 
 #include <csignal>
+#include <ctime>
 
 namespace cairn::app {
 namespace {
 
-volatile std::sig_atomic_t interrupt_seen = 0;
+// One press can arrive twice: `timeout` and some service managers send it to the process and again
+// to its group.
+constexpr double kSamePress = 0.5;  // seconds
 
-void on_interrupt(int) {
-  interrupt_seen = 1;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+volatile std::sig_atomic_t interrupt_seen = 0;
+volatile double first_seen = 0;
+
+double now() {  // safe to call from a signal handler
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+void on_interrupt(int signal) {
+  if (interrupt_seen == 0) {
+    first_seen = now();
+    interrupt_seen = 1;
+  } else if (now() - first_seen > kSamePress) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/geometry/lens_correction.h"
 #include "cairn/geometry/se3.h"
 #include "cairn/map/frame.h"
 #include "cairn/map/ids.h"
@@ -44,6 +45,10 @@ class Map {
   explicit Map(const View& view) : view_(view) {}
 
   const View& view() const { return view_; }
+  /// What the calibration got wrong, as far as it was estimated. Nothing until the full adjustment:
+  /// tracking and mapping work with the calibration as given.
+  LensCorrection& lens() { return lens_; }
+  const LensCorrection& lens() const { return lens_; }
   SlotMap<Keyframe, KeyframeId>& keyframes() { return keyframes_; }
   const SlotMap<Keyframe, KeyframeId>& keyframes() const { return keyframes_; }
   SlotMap<MapPoint, PointId>& points() { return points_; }
@@ -81,6 +86,7 @@ class Map {
 
  private:
   View view_;
+  LensCorrection lens_;
   SlotMap<Keyframe, KeyframeId> keyframes_;
   SlotMap<MapPoint, PointId> points_;
   std::uint32_t next_sequence_ = 0;

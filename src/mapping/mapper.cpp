@@ -30,7 +30,7 @@ bool Mapper::initialize(const InitialPair& initial) {
     }
     map_.update_descriptor(id);
   }
-  const AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, nullptr);
+  const AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, nullptr);
   const double depth = map_.depth_quantile(first, 0.5);
   if (!summary.usable || depth <= 0 || int(map_.points().size()) < kMinInitialPoints) return false;
   // One unit of the map is the median depth of its first picture, until something metric is known.
@@ -77,7 +77,7 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   retrieval_.add(current_.slot, keyframe.frame->features);
   cull_recent_points();
   const std::vector<PointId> created =
-      create_points(map_, current_, {options_.neighbours, options_.min_parallax_deg});
+      create_points(map_, current_, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
   recent_.insert(recent_.end(), created.begin(), created.end());
   const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused", keyframe.sequence,
@@ -97,11 +97,16 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
 
 AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() < 2) return {};
-  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, abort);
+  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
   spdlog::info("full adjustment: {}; then {} points fused", summary.to_string(), fused);
-  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, abort);
+  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort);
+  if (options_.refine_lens) {
+    summary = adjust_fully(map_, options_.adjustment, true, abort);
+    const auto& v = map_.lens().values;
+    spdlog::info("lens: {}, focal x{:.4f} k1 {:.4f} k2 {:.4f} c {:.2f} {:.2f}", summary.to_string(), std::exp(v[0]), v[1], v[2], v[3], v[4]);
+  }
   publish(map_.newest());
   return summary;
 }

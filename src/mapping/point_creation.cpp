@@ -33,9 +33,10 @@ bool reprojects(const View& view, const Eye& eye, const Eigen::Vector3d& X_w,
 
 class PairMatcher {
  public:
-  PairMatcher(Map& map, KeyframeId id1, KeyframeId id2, double min_parallax_deg)
+  PairMatcher(Map& map, KeyframeId id1, KeyframeId id2, const PointCreationOptions& options)
       : map_(map), id1_(id1), id2_(id2), a_(map.keyframes()[id1]), b_(map.keyframes()[id2]),
-        min_parallax_(min_parallax_deg * M_PI / 180) {
+        min_parallax_(options.min_parallax_deg * M_PI / 180),
+        ratio_(options.ratio) {
     const SE3 T_21 = b_.T_cw * a_.T_cw.inverse();
     const Pinhole& K = map.view().pinhole();
     Eigen::Matrix3d K_inv;
@@ -83,7 +84,7 @@ class PairMatcher {
       if (!near_line_[k]) continue;
       best.offer(static_cast<std::uint32_t>(k), hamming(d, b_.frame.features.descriptors[free_[k]]));
     }
-    return best.distance <= kMaxDistance ? static_cast<int>(best.index) : -1;
+    return best.accepted(kMaxDistance, ratio_) ? static_cast<int>(best.index) : -1;
   }
 
   bool try_point(std::uint32_t i, std::uint32_t j, std::vector<PointId>& created) {
@@ -115,6 +116,7 @@ class PairMatcher {
   KeyframeId id1_, id2_;
   Eye a_, b_;
   double min_parallax_;  // radians
+  double ratio_;
   Eigen::Matrix3d F_, R_21_;
   Eigen::Vector3d t_21_;
   // The keypoints of b without a point.
@@ -135,7 +137,7 @@ std::vector<PointId> create_points(Map& map, KeyframeId keyframe,
     const double baseline = (map.keyframes()[keyframe].T_wc.translation() -
                              map.keyframes()[other].T_wc.translation()).norm();
     if (baseline < kMinBaselineRatio * map.depth_quantile(other, 0.5)) continue;
-    PairMatcher(map, keyframe, other, options.min_parallax_deg).run(created);
+    PairMatcher(map, keyframe, other, options).run(created);
   }
   return created;
 }

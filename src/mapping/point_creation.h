@@ -9,6 +9,7 @@ namespace cairn {
 struct PointCreationOptions {
   int neighbours = 20;
   double min_parallax_deg = 1.0;
+  double ratio = 0.8;  ///< nearest over second nearest descriptor near to the epipolar line, below
 };
 
 /// New points between the free keypoints of a keyframe and those of its covisible neighbours: matched

@@ -7,21 +7,25 @@
 #include <cstdio>
 #include <deque>
 
+#include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
 #include "cairn/optimization/se3_manifold.h"
 
 namespace cairn {
 namespace {
 
-constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
+static const double kGate = getenv("GATE") ? atof(getenv("GATE")) : 5.991;
+
+// How far off calibrations are: focal length 2 %, distortion, principal point 5 px.
+constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.02, 0.02, 0.02, 5, 5};
 
 // A part of the map as a least-squares problem: contiguous parameters, filled from the map, written
 // back to it.
 class Adjustment {
  public:
   Adjustment(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
-             std::vector<PointId> points)
-      : map_(map), keyframes_(std::move(free)), points_(std::move(points)) {
+             std::vector<PointId> points, bool refine_lens = false)
+      : map_(map), refine_lens_(refine_lens), lens_(map.lens()), keyframes_(std::move(free)), points_(std::move(points)) {
     free_count_ = keyframes_.size();
     keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
     for (std::size_t i = 0; i < keyframes_.size(); ++i) {
@@ -59,6 +63,7 @@ class Adjustment {
   }
 
   void write_back() {
+    map_.lens() = lens_;
     for (std::size_t i = 0; i < free_count_; ++i) {
       map_.keyframes()[keyframes_[i]].T_wc = SE3Manifold::unpack(&pose_values_[7 * i]);
     }
@@ -77,7 +82,7 @@ class Adjustment {
       const Keyframe& k = map_.keyframes()[keyframe];
       const Eigen::Vector3d X = k.T_wc.inverse() * map_.points()[point].position;
       const double sigma = map_.view().sigma(k.frame->octave(edge.keypoint));
-      const bool agrees = X.z() > 0 && ((map_.view().pinhole().project(X) -
+      const bool agrees = X.z() > 0 && ((map_.lens().project(map_.view().pinhole(), X) -
                                          k.frame->pixel(edge.keypoint)) / sigma)
                                                .squaredNorm() < kGate;
       if (agrees) continue;
@@ -128,13 +133,23 @@ class Adjustment {
       problem_->AddParameterBlock(&point_values_[3 * i], 3);
       ordering_->AddElementToGroup(&point_values_[3 * i], 0);
     }
+    if (refine_lens_) ordering_->AddElementToGroup(lens_.values.data(), 1);
     for (const Edge& edge : observations_) {
       const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
-      factors_.emplace_back(map_.view().pinhole(), frame.pixel(edge.keypoint),
-                            map_.view().sigma(frame.octave(edge.keypoint)));
-      problem_->AddResidualBlock(&factors_.back(), &loss_, &pose_values_[7 * edge.keyframe],
-                                 &point_values_[3 * edge.point]);
+      const Pinhole& pinhole = map_.view().pinhole();
+      const double sigma = map_.view().sigma(frame.octave(edge.keypoint));
+      double* pose = &pose_values_[7 * edge.keyframe];
+      double* point = &point_values_[3 * edge.point];
+      if (refine_lens_) {
+        lens_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
+        problem_->AddResidualBlock(&lens_factors_.back(), &loss_, pose, point,
+                                   lens_.values.data());
+      } else {
+        factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
+        problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
+      }
     }
+    if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
   }
 
   void collect() {
@@ -151,6 +166,8 @@ class Adjustment {
   }
 
   Map& map_;
+  bool refine_lens_;
+  LensCorrection lens_;
   std::vector<KeyframeId> keyframes_;  // the free ones first
   std::size_t free_count_ = 0;
   std::vector<PointId> points_;
@@ -158,7 +175,9 @@ class Adjustment {
   std::vector<Edge> observations_;
   std::vector<double> pose_values_, point_values_;
   std::deque<PointFactor> factors_;
-  ceres::HuberLoss loss_{std::sqrt(kGate)};
+  std::deque<LensPointFactor> lens_factors_;
+  LensPriorFactor lens_prior_{kLensSigma};
+  std::unique_ptr<ceres::LossFunction> own_loss_{getenv("CAUCHY") ? (ceres::LossFunction*)new ceres::CauchyLoss(atof(getenv("CAUCHY"))) : getenv("HUBER") ? (ceres::LossFunction*)new ceres::HuberLoss(atof(getenv("HUBER"))) : (ceres::LossFunction*)new ceres::HuberLoss(std::sqrt(kGate))}; ceres::LossFunction& loss_ = *own_loss_;
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
@@ -236,7 +255,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
   return summary;
 }
 
-AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
                                const std::atomic<bool>* abort) {
   AdjustmentSummary summary;
   double initial_rms = 0;
@@ -248,7 +267,7 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
     std::vector<PointId> points;
     map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
     if (free.empty() || points.empty()) return summary;
-    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points));
+    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), lens);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

@@ -30,8 +30,9 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
                                  const std::atomic<bool>* abort);
 
 /// Adjusts everything; the first keyframe is held. Runs twice: once with all observations, once
-/// without those that the first run shows to be wrong.
-AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
+/// without those that the first run shows to be wrong. With `lens`, the correction of the lens is
+/// estimated, too.
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
                                const std::atomic<bool>* abort);
 
 }  // namespace cairn
