@@ -62,6 +62,28 @@ class Adjustment {
     return summary;
   }
 
+  // The unit of a monocular map is free: keyframes and points can shrink together at no cost, and
+  // steps along that direction are as large as the solver's damping lets them be. What hangs on the
+  // keyframes by lengths (frames, buried keyframes) stays behind; so the unit is kept: the spread of
+  // the keyframes around the one that is held. To be called before write_back.
+  void keep_unit() {
+    const Eigen::Vector3d origin = map_.keyframes()[keyframes_[free_count_]].T_wc.translation();
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < free_count_; ++i) {
+      const auto now = Eigen::Vector3d::Map(&pose_values_[7 * i + 4]);
+      before += (map_.keyframes()[keyframes_[i]].T_wc.translation() - origin).squaredNorm();
+      after += (now - origin).squaredNorm();
+    }
+    const double scale = std::sqrt(before / after);
+    if (!std::isfinite(scale) || scale <= 0) return;
+    auto move = [&](double* position) {
+      auto p = Eigen::Vector3d::Map(position);
+      p = origin + scale * (p - origin);
+    };
+    for (std::size_t i = 0; i < free_count_; ++i) move(&pose_values_[7 * i + 4]);
+    for (std::size_t i = 0; i < points_.size(); ++i) move(&point_values_[3 * i]);
+  }
+
   void write_back() {
     map_.lens() = lens_;
     for (std::size_t i = 0; i < free_count_; ++i) {
@@ -273,6 +295,7 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     if (round == 0) initial_rms = summary.initial_rms;
     summary.initial_rms = initial_rms;
     if (!summary.usable) return summary;
+    adjustment.keep_unit();
     adjustment.write_back();
     summary.outliers = outliers + adjustment.erase_outliers();
   }

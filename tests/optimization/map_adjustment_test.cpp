@@ -59,7 +59,7 @@ TEST(FullAdjustment, BringsADisturbedMapBackToTheTruth) {
   disturb(map, 1, 0.02, 0.05, 0.05);
   const int before = observations_of(map);
   const double disturbed = errors_of(map, world).median;
-  const AdjustmentSummary summary = adjust_fully(map, {}, nullptr);
+  const AdjustmentSummary summary = adjust_fully(map, {}, false, nullptr);
   EXPECT_TRUE(summary.usable) << summary.to_string();
   EXPECT_LT(summary.final_rms, summary.initial_rms);
   const auto errors = errors_of(map, world);
@@ -69,6 +69,24 @@ TEST(FullAdjustment, BringsADisturbedMapBackToTheTruth) {
   EXPECT_EQ((map.keyframes()[map.first()].T_wc.matrix() - first.matrix()).norm(), 0);
   EXPECT_GT(observations_of(map), 0.9 * before) << "good observations were thrown away";
   EXPECT_EQ(broken_links(map), "");
+}
+
+// Frames hang on their keyframes by lengths in units of the map.
+TEST(FullAdjustment, KeepsTheUnitOfTheMap) {
+  PointWorld world(38);
+  Map map = testing::true_map(world, walk(6, 0.3));
+  disturb(map, 8, 0.01, 0.05, 0.05);
+  auto spread = [&] {
+    const Eigen::Vector3d origin = map.keyframes()[map.first()].T_wc.translation();
+    double sum = 0;
+    map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
+      sum += (k.T_wc.translation() - origin).squaredNorm();
+    });
+    return std::sqrt(sum);
+  };
+  const double before = spread();
+  ASSERT_TRUE(adjust_fully(map, {}, false, nullptr).usable);
+  EXPECT_NEAR(spread() / before, 1, 1e-9);
 }
 
 TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
@@ -92,7 +110,7 @@ TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
   }
   ASSERT_GT(wrong.size(), 100u);
   disturb(map, 2, 0.01, 0.02, 0.02);
-  const AdjustmentSummary summary = adjust_fully(map, {}, nullptr);
+  const AdjustmentSummary summary = adjust_fully(map, {}, false, nullptr);
   ASSERT_TRUE(summary.usable);
   int left = 0;
   for (const auto& [p, k] : wrong) left += map.points().contains(p) && map.keypoint_of(p, k) >= 0;
@@ -105,7 +123,7 @@ TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
 
 TEST(FullAdjustment, OfAnEmptyMapIsRefused) {
   Map map(testing::point_view());
-  EXPECT_FALSE(adjust_fully(map, {}, nullptr).usable);
+  EXPECT_FALSE(adjust_fully(map, {}, false, nullptr).usable);
 }
 
 TEST(LocalAdjustment, BringsTheWindowBackToTheTruth) {
@@ -177,8 +195,8 @@ TEST(Adjustment, StopsEarlyWhenAskedToAndLeavesAUsableMap) {
   const int before = observations_of(map);
   const std::atomic<bool> abort{true};
   for (int round = 0; round < 2; ++round) {
-    const AdjustmentSummary summary =
-        round == 0 ? adjust_locally(map, map.newest(), {}, &abort) : adjust_fully(map, {}, &abort);
+    const AdjustmentSummary summary = round == 0 ? adjust_locally(map, map.newest(), {}, &abort)
+                                                 : adjust_fully(map, {}, false, &abort);
     EXPECT_LE(summary.iterations, 2);
     EXPECT_EQ(broken_links(map), "");
     EXPECT_GT(observations_of(map), before / 2);
@@ -192,7 +210,7 @@ TEST(Adjustment, SameMapSameBytes) {
     Map map = testing::true_map(world, walk(7, 0.25));
     disturb(map, 7, 0.01, 0.02, 0.02);
     adjust_locally(map, map.newest(), {}, nullptr);
-    adjust_fully(map, {}, nullptr);
+    adjust_fully(map, {}, false, nullptr);
     return numbers_of(map);
   };
   EXPECT_EQ(run(), run());
