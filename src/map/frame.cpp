@@ -23,13 +23,12 @@ View::View(const Camera& camera, int levels, double scale, double sigma_px)
   const double w = camera.width() - 1, h = camera.height() - 1;
   min_x_ = w;
   min_y_ = h;
-  constexpr int kSteps = 32;
+  // Within the picture, too: the border of a fisheye's may look where no pinhole can.
+  constexpr int kSteps = 64;
   for (int i = 0; i <= kSteps; ++i) {
-    const double a = double(i) / kSteps;
-    for (const Eigen::Vector2d& border : {Eigen::Vector2d(a * w, 0), Eigen::Vector2d(a * w, h),
-                                          Eigen::Vector2d(0, a * h), Eigen::Vector2d(w, a * h)}) {
+    for (int k = 0; k <= kSteps; ++k) {
       Eigen::Vector2d p;
-      if (!pinhole_pixel(camera, border, p)) continue;
+      if (!pinhole_pixel(camera, {i * w / kSteps, k * h / kSteps}, p)) continue;
       min_x_ = std::min(min_x_, p.x());
       max_x_ = std::max(max_x_, p.x());
       min_y_ = std::min(min_y_, p.y());

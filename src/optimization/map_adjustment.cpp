@@ -67,6 +67,28 @@ class Adjustment {
     return summary;
   }
 
+  // The unit of a monocular map is free: keyframes and points can shrink together at no cost, and
+  // steps along that direction are as large as the solver's damping lets them be. What hangs on the
+  // keyframes by lengths (frames, buried keyframes) stays behind; so the unit is kept: the spread of
+  // the keyframes around the one that is held. To be called before write_back.
+  void keep_unit() {
+    const Eigen::Vector3d origin = map_.keyframes()[keyframes_[free_count_]].T_wc.translation();
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < free_count_; ++i) {
+      const auto now = Eigen::Vector3d::Map(&pose_values_[7 * i + 4]);
+      before += (map_.keyframes()[keyframes_[i]].T_wc.translation() - origin).squaredNorm();
+      after += (now - origin).squaredNorm();
+    }
+    const double scale = std::sqrt(before / after);
+    if (!std::isfinite(scale) || scale <= 0) return;
+    auto move = [&](double* position) {
+      auto p = Eigen::Vector3d::Map(position);
+      p = origin + scale * (p - origin);
+    };
+    for (std::size_t i = 0; i < free_count_; ++i) move(&pose_values_[7 * i + 4]);
+    for (std::size_t i = 0; i < points_.size(); ++i) move(&point_values_[3 * i]);
+  }
+
   void write_back() {
     map_.lens() = lens_;
     for (std::size_t i = 0; i < free_count_; ++i) {
@@ -77,8 +99,8 @@ class Adjustment {
     }
   }
 
-  // Erases the observations that do not fit; to be called after write_back.
-  int erase_outliers() {
+  // Erases the observations that lie beyond the gate; to be called after write_back.
+  int erase_outliers(double gate) {
     int erased = 0;
     for (const Edge& edge : observations_) {
       const KeyframeId keyframe = keyframes_[edge.keyframe];
@@ -90,7 +112,7 @@ class Adjustment {
       const bool agrees =
           X.z() > 0 &&
           ((map_.lens().project(map_.view().pinhole(), X) - k.frame->pixel(edge.keypoint)) / sigma)
-                  .squaredNorm() < kGate;
+                  .squaredNorm() < gate;
       if (agrees) continue;
       map_.erase_observation(point, keyframe);
       ++erased;
@@ -255,7 +277,8 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
   AdjustmentSummary summary = adjustment.solve(options.local_iterations, 1e-4, abort);
   if (!summary.usable) return summary;
   adjustment.write_back();
-  summary.outliers = adjustment.erase_outliers();
+  // An aborted fit is no judge of observations.
+  if (abort == nullptr || !abort->load()) summary.outliers = adjustment.erase_outliers(kGate);
   return summary;
 }
 
@@ -276,8 +299,10 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     if (round == 0) initial_rms = summary.initial_rms;
     summary.initial_rms = initial_rms;
     if (!summary.usable) return summary;
+    adjustment.keep_unit();
     adjustment.write_back();
-    summary.outliers = outliers + adjustment.erase_outliers();
+    // The first fit is bent by what is wrong: only what is far off goes.
+    summary.outliers = outliers + adjustment.erase_outliers(round == 0 ? 4 * kGate : kGate);
   }
   return summary;
 }

@@ -1,0 +1,116 @@
+#include "cairn/map/frame.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/scene.h"
+
+namespace cairn {
+namespace {
+
+using testing::Random;
+
+const Camera& freiburg1() {
+  static const Camera camera(Camera::Model::kRadialTangential, 640, 480,
+                             {517.306408, 516.469215, 318.643040, 255.313989},
+                             {0.262383, -0.953104, -0.005358, 0.002628, 1.163314});
+  return camera;
+}
+
+Features random_features(int count, std::uint64_t seed) {
+  Random random(seed);
+  Features features;
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(0, 639), y = random.uniform(0, 479);
+    features.keypoints.push_back({float(x), float(y), 0.5F, 1, i % 8});
+    features.descriptors.push_back({random.next(), 0, 0, static_cast<std::uint64_t>(i)});
+  }
+  return features;
+}
+
+TEST(Undistorter, AgreesWithTheCameraOnAHundredthOfAPixel) {
+  const Features distorted = random_features(3000, 1);
+  Features features = distorted;
+  std::size_t calls = 0;
+  Undistorter(freiburg1()).apply(features, [&](float x, float y) {
+    EXPECT_EQ(x, distorted.keypoints[calls].x);
+    EXPECT_EQ(y, distorted.keypoints[calls].y);
+    ++calls;
+  });
+  ASSERT_EQ(features.size(), distorted.size());
+  EXPECT_EQ(calls, features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const Keypoint& from = distorted.keypoints[i];
+    const Keypoint& to = features.keypoints[i];
+    const Eigen::Vector2d expected = freiburg1().undistort({from.x, from.y});
+    EXPECT_NEAR(to.x, expected.x(), 0.01) << from.x << " " << from.y;
+    EXPECT_NEAR(to.y, expected.y(), 0.01) << from.x << " " << from.y;
+    EXPECT_EQ(to.octave, from.octave);
+    EXPECT_EQ(features.descriptors[i], distorted.descriptors[i]);
+  }
+}
+
+TEST(Undistorter, LeavesThePixelsOfAPinholeAlone) {
+  const Features before = random_features(100, 2);
+  Features features = before;
+  int calls = 0;
+  Undistorter(Camera(Camera::Model::kRadialTangential, 640, 480, testing::kCamera))
+      .apply(features, [&](float, float) { ++calls; });
+  EXPECT_EQ(calls, 100);
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(features.keypoints[i].x, before.keypoints[i].x);
+    EXPECT_EQ(features.keypoints[i].y, before.keypoints[i].y);
+  }
+}
+
+TEST(Undistorter, RemovesWhatNoPinholeCanSee) {
+  // 640 pixels over about 230 degrees: the corners look backwards.
+  const Camera fisheye(Camera::Model::kKannalaBrandt, 640, 480, {160, 160, 320, 240});
+  Features features = random_features(2000, 3);
+  for (std::size_t i = 0; i < features.size(); ++i) features.descriptors[i][1] = i;
+  const Features before = features;
+  int calls = 0;
+  Undistorter(fisheye).apply(features, [&](float, float) { ++calls; });
+  EXPECT_LT(features.size(), 2000u);
+  EXPECT_GT(features.size(), 200u);
+  EXPECT_EQ(static_cast<std::size_t>(calls), features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const Keypoint& kp = features.keypoints[i];
+    ASSERT_TRUE(std::isfinite(kp.x) && std::isfinite(kp.y));
+    // Descriptors went along with their keypoints.
+    EXPECT_EQ(kp.octave, before.keypoints[features.descriptors[i][1]].octave);
+  }
+}
+
+TEST(View, ContainsEveryUndistortedPixelOfThePicture) {
+  const View view(freiburg1(), 8, 1.2, 1);
+  Features features = random_features(2000, 4);
+  Undistorter(freiburg1()).apply(features, [](float, float) {});
+  for (const Keypoint& kp : features.keypoints) {
+    EXPECT_GE(kp.x, view.min_x() - 0.1);
+    EXPECT_GE(kp.y, view.min_y() - 0.1);
+    EXPECT_LE(kp.x, view.max_x() + 0.1);
+    EXPECT_LE(kp.y, view.max_y() + 0.1);
+  }
+  EXPECT_FALSE(view.contains({view.min_x() - 1, 200}));
+  EXPECT_FALSE(view.contains({200, view.max_y() + 1}));
+}
+
+TEST(View, OfAFisheyeIsBounded) {
+  const View view(Camera(Camera::Model::kKannalaBrandt, 640, 480, {160, 160, 320, 240}), 8, 1.2, 1);
+  EXPECT_LE(view.max_x() - view.min_x(), 640 * 6);
+  EXPECT_GT(view.max_x() - view.min_x(), 320);
+}
+
+TEST(View, OctavesGrowByTheScaleOfThePyramidAndSigmaWithThem) {
+  const View view(freiburg1(), 8, 1.2, 0.8);
+  EXPECT_EQ(view.levels(), 8);
+  EXPECT_EQ(view.scale(0), 1);
+  for (int i = 1; i < view.levels(); ++i) {
+    EXPECT_NEAR(view.scale(i) / view.scale(i - 1), 1.2, 1e-9);
+    EXPECT_GT(view.sigma(i), view.sigma(i - 1) * 0.999);
+  }
+  EXPECT_NEAR(view.log_scale_factor(), std::log(1.2), 1e-12);
+}
+
+}  // namespace
+}  // namespace cairn

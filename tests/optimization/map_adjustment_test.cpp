@@ -1,0 +1,220 @@
+#include "cairn/optimization/map_adjustment.h"
+
+#include <gtest/gtest.h>
+
+#include "map/links.h"
+#include "map/point_world.h"
+
+namespace cairn {
+namespace {
+
+using testing::along;
+using testing::broken_links;
+using testing::errors_of;
+using testing::keyframes_of;
+using testing::PointWorld;
+using testing::Random;
+
+std::vector<SE3> walk(int count, double step) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < count; ++i) poses.push_back(along(i * step));
+  return poses;
+}
+
+// Moves all points, and all keyframes but the first.
+void disturb(Map& map, std::uint64_t seed, double angle, double distance, double point_sigma) {
+  Random random(seed);
+  map.keyframes().for_each([&](KeyframeId id, Keyframe& k) {
+    if (id != map.first()) k.T_wc = k.T_wc * random.motion(angle, distance);
+  });
+  map.points().for_each(
+      [&](PointId, MapPoint& p) { p.position += point_sigma * random.gaussian3(); });
+}
+
+int observations_of(const Map& map) {
+  int count = 0;
+  map.points().for_each(
+      [&](PointId, const MapPoint& p) { count += static_cast<int>(p.observations.size()); });
+  return count;
+}
+
+// Everything that an adjustment may change, to be compared bit by bit.
+std::vector<double> numbers_of(const Map& map) {
+  std::vector<double> numbers;
+  map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
+    for (int i = 0; i < 4; ++i) numbers.push_back(k.T_wc.rotation().coeffs()[i]);
+    for (int i = 0; i < 3; ++i) numbers.push_back(k.T_wc.translation()[i]);
+  });
+  map.points().for_each([&](PointId id, const MapPoint& p) {
+    numbers.push_back(id.slot);
+    for (int i = 0; i < 3; ++i) numbers.push_back(p.position[i]);
+  });
+  return numbers;
+}
+
+TEST(FullAdjustment, BringsADisturbedMapBackToTheTruth) {
+  PointWorld world(31, {.noise = 0.2});
+  Map map = testing::true_map(world, walk(6, 0.3));
+  const SE3 first = map.keyframes()[map.first()].T_wc;
+  disturb(map, 1, 0.02, 0.05, 0.05);
+  const int before = observations_of(map);
+  const double disturbed = errors_of(map, world).median;
+  const AdjustmentSummary summary = adjust_fully(map, {}, false, nullptr);
+  EXPECT_TRUE(summary.usable) << summary.to_string();
+  EXPECT_LT(summary.final_rms, summary.initial_rms);
+  const auto errors = errors_of(map, world);
+  EXPECT_LT(errors.median, 0.4 * disturbed);
+  EXPECT_LT(errors.camera, 0.02);
+  EXPECT_LT(errors.rotation_deg, 0.2);
+  EXPECT_EQ((map.keyframes()[map.first()].T_wc.matrix() - first.matrix()).norm(), 0);
+  EXPECT_GT(observations_of(map), 0.9 * before) << "good observations were thrown away";
+  EXPECT_EQ(broken_links(map), "");
+}
+
+// Frames hang on their keyframes by lengths in units of the map.
+TEST(FullAdjustment, KeepsTheUnitOfTheMap) {
+  PointWorld world(38);
+  Map map = testing::true_map(world, walk(6, 0.3));
+  disturb(map, 8, 0.01, 0.05, 0.05);
+  auto spread = [&] {
+    const Eigen::Vector3d origin = map.keyframes()[map.first()].T_wc.translation();
+    double sum = 0;
+    map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
+      sum += (k.T_wc.translation() - origin).squaredNorm();
+    });
+    return std::sqrt(sum);
+  };
+  const double before = spread();
+  ASSERT_TRUE(adjust_fully(map, {}, false, nullptr).usable);
+  EXPECT_NEAR(spread() / before, 1, 1e-9);
+}
+
+TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
+  PointWorld world(32, {.noise = 0.2});
+  Map map = testing::true_map(world, walk(6, 0.25));
+  const int before = observations_of(map);
+  // Clutter is taken for points that the keyframe does not see.
+  std::vector<std::pair<PointId, KeyframeId>> wrong;
+  for (const KeyframeId id : keyframes_of(map)) {
+    const Keyframe& k = map.keyframes()[id];
+    std::vector<PointId> strangers;
+    map.points().for_each([&](PointId p, const MapPoint&) {
+      if (map.keypoint_of(p, id) < 0) strangers.push_back(p);
+    });
+    for (std::uint32_t i = 0; i < k.frame->size() && !strangers.empty(); ++i) {
+      if (world.point_of(*k.frame, i) >= 0 || i % 2 == 0) continue;
+      map.add_observation(strangers.back(), id, i);
+      wrong.emplace_back(strangers.back(), id);
+      strangers.pop_back();
+    }
+  }
+  ASSERT_GT(wrong.size(), 100u);
+  disturb(map, 2, 0.01, 0.02, 0.02);
+  const AdjustmentSummary summary = adjust_fully(map, {}, false, nullptr);
+  ASSERT_TRUE(summary.usable);
+  int left = 0;
+  for (const auto& [p, k] : wrong) left += map.points().contains(p) && map.keypoint_of(p, k) >= 0;
+  EXPECT_LE(left, static_cast<int>(wrong.size()) / 20);
+  EXPECT_GT(observations_of(map), 0.75 * before);
+  EXPECT_GE(summary.outliers, static_cast<int>(wrong.size()) - left - 20);
+  EXPECT_LT(errors_of(map, world).camera, 0.06);
+  EXPECT_EQ(broken_links(map), "");
+}
+
+TEST(FullAdjustment, OfAnEmptyMapIsRefused) {
+  Map map(testing::point_view());
+  EXPECT_FALSE(adjust_fully(map, {}, false, nullptr).usable);
+}
+
+TEST(LocalAdjustment, BringsTheWindowBackToTheTruth) {
+  PointWorld world(33, {.noise = 0.2});
+  Map map = testing::true_map(world, walk(8, 0.2));
+  const auto ids = keyframes_of(map);
+  Random random(4);
+  for (std::size_t i = 5; i < 8; ++i) {
+    Keyframe& k = map.keyframes()[ids[i]];
+    k.T_wc = k.T_wc * random.motion(0.01, 0.03);
+  }
+  EXPECT_GT(errors_of(map, world).camera, 0.025);
+  const AdjustmentSummary summary = adjust_locally(map, ids.back(), {}, nullptr);
+  EXPECT_TRUE(summary.usable) << summary.to_string();
+  EXPECT_LT(errors_of(map, world).camera, 0.015);
+  EXPECT_EQ(broken_links(map), "");
+}
+
+TEST(LocalAdjustment, LeavesKeyframesOutsideOfItsWindowWhereTheyAre) {
+  PointWorld world(34);
+  Map map = testing::true_map(world, walk(8, 0.25));
+  const auto ids = keyframes_of(map);
+  disturb(map, 5, 0.005, 0.01, 0.01);
+  std::map<KeyframeId, SE3> before;
+  for (const KeyframeId id : ids) before[id] = map.keyframes()[id].T_wc;
+  AdjustmentOptions options;
+  options.window = 3;
+  ASSERT_TRUE(adjust_locally(map, ids.back(), options, nullptr).usable);
+  int moved = 0;
+  for (const KeyframeId id : ids) {
+    const SE3& now = map.keyframes()[id].T_wc;
+    moved += (now.matrix() - before[id].matrix()).norm() > 0;
+  }
+  EXPECT_GT(moved, 0);
+  EXPECT_LE(moved, 3);
+  EXPECT_GT((map.keyframes()[ids.back()].T_wc.matrix() - before[ids.back()].matrix()).norm(), 0);
+  for (int i : {0, 1, 2}) {
+    EXPECT_EQ((map.keyframes()[ids[i]].T_wc.matrix() - before[ids[i]].matrix()).norm(), 0) << i;
+  }
+}
+
+TEST(LocalAdjustment, ErasesObservationsThatAreWrong) {
+  PointWorld world(35);
+  Map map = testing::true_map(world, walk(6, 0.2));
+  const KeyframeId newest = map.newest();
+  const Frame& frame = *map.keyframes()[newest].frame;
+  std::vector<PointId> strangers;  // points that the newest does not see
+  map.points().for_each([&](PointId id, const MapPoint&) {
+    if (map.keypoint_of(id, newest) < 0) strangers.push_back(id);
+  });
+  std::vector<PointId> wrong;
+  for (std::uint32_t i = 0; i < frame.size() && wrong.size() < strangers.size(); ++i) {
+    if (world.point_of(frame, i) >= 0) continue;
+    map.add_observation(strangers[wrong.size()], newest, i);
+    wrong.push_back(strangers[wrong.size()]);
+  }
+  ASSERT_GT(wrong.size(), 20u);
+  ASSERT_TRUE(adjust_locally(map, newest, {}, nullptr).usable);
+  int left = 0;
+  for (const PointId p : wrong) left += map.points().contains(p) && map.keypoint_of(p, newest) >= 0;
+  EXPECT_LE(left, static_cast<int>(wrong.size()) / 10);
+  EXPECT_EQ(broken_links(map), "");
+}
+
+TEST(Adjustment, StopsEarlyWhenAskedToAndLeavesAUsableMap) {
+  PointWorld world(36);
+  Map map = testing::true_map(world, walk(6, 0.3));
+  disturb(map, 6, 0.002, 0.002, 0.002);
+  const int before = observations_of(map);
+  const std::atomic<bool> abort{true};
+  for (int round = 0; round < 2; ++round) {
+    const AdjustmentSummary summary = round == 0 ? adjust_locally(map, map.newest(), {}, &abort)
+                                                 : adjust_fully(map, {}, false, &abort);
+    EXPECT_LE(summary.iterations, 2);
+    EXPECT_EQ(broken_links(map), "");
+    EXPECT_GT(observations_of(map), before / 2);
+    EXPECT_LT(errors_of(map, world).camera, 0.05);
+  }
+}
+
+TEST(Adjustment, SameMapSameBytes) {
+  auto run = [] {
+    PointWorld world(37);
+    Map map = testing::true_map(world, walk(7, 0.25));
+    disturb(map, 7, 0.01, 0.02, 0.02);
+    adjust_locally(map, map.newest(), {}, nullptr);
+    adjust_fully(map, {}, false, nullptr);
+    return numbers_of(map);
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,73 @@
+#include "cairn/system/frame_log.h"
+
+#include <gtest/gtest.h>
+
+#include "map/point_world.h"
+
+namespace cairn {
+namespace {
+
+using testing::along;
+
+double distance(const SE3& a, const SE3& b) { return (a.inverse() * b).log().norm(); }
+
+class FrameLogTest : public ::testing::Test {
+ protected:
+  KeyframeId add_keyframe(const SE3& T_wc, double timestamp) {
+    return map.add_keyframe(world.show(T_wc, timestamp), T_wc);
+  }
+
+  testing::PointWorld world{101};
+  Map map{testing::point_view()};
+  KeyframeId first = add_keyframe(along(0), 0), second = add_keyframe(along(0.5), 1);
+  FrameLog log;
+};
+
+TEST_F(FrameLogTest, CarriesAFrameByItsKeyframe) {
+  const SE3 T_rc = along(0.5).inverse() * along(0.7);
+  log.add(1.5, second, T_rc, along(0.7));
+  const SE3 correction(so3_exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3));
+  map.keyframes()[second].T_wc = correction * along(0.5);
+  const Trajectory trajectory = log.final_trajectory(map, {});
+  ASSERT_EQ(trajectory.size(), 1u);
+  EXPECT_EQ(trajectory[0].timestamp, 1.5);
+  EXPECT_LT(distance(trajectory[0].T_wc, correction * along(0.7)), 1e-9);
+  ASSERT_EQ(log.live_trajectory().size(), 1u);
+  EXPECT_LT(distance(log.live_trajectory()[0].T_wc, along(0.7)), 1e-12) << "as it was known then";
+}
+
+TEST_F(FrameLogTest, CarriesAFrameByTheParentsOfABuriedKeyframe) {
+  const KeyframeId third = add_keyframe(along(1), 2), fourth = add_keyframe(along(1.2), 3);
+  log.add(3.5, fourth, along(1.2).inverse() * along(1.3), along(1.3));
+  // The fourth is buried in the third, then the third in the second.
+  const std::vector<BuriedKeyframe> buried = {{fourth, third, along(1).inverse() * along(1.2)},
+                                              {third, second, along(0.5).inverse() * along(1)}};
+  map.erase_keyframe(fourth);
+  map.erase_keyframe(third);
+  add_keyframe(along(9), 4);  // takes a slot of theirs
+  const SE3 correction(so3_exp({0, 0.2, 0}), Eigen::Vector3d(-1, 0, 0.5));
+  map.keyframes()[second].T_wc = correction * along(0.5);
+  const Trajectory trajectory = log.final_trajectory(map, buried);
+  ASSERT_EQ(trajectory.size(), 1u);
+  EXPECT_LT(distance(trajectory[0].T_wc, correction * along(1.3)), 1e-9);
+}
+
+TEST_F(FrameLogTest, AFrameThatIsAKeyframeIsWhereTheKeyframeIs) {
+  log.add(1, first, along(0).inverse() * along(0.5), along(0.5));
+  map.keyframes()[second].T_wc = along(0.6);
+  const Trajectory trajectory = log.final_trajectory(map, {});
+  ASSERT_EQ(trajectory.size(), 1u);
+  EXPECT_LT(distance(trajectory[0].T_wc, along(0.6)), 1e-9);
+}
+
+TEST_F(FrameLogTest, KeyframesComeInOrderOfTime) {
+  map.erase_keyframe(first);
+  add_keyframe(along(1), 2);
+  add_keyframe(along(2), 3);
+  const Trajectory trajectory = keyframe_trajectory(map);
+  ASSERT_EQ(trajectory.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(trajectory[i].timestamp, double(i + 1));
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,133 @@
+#include "cairn/system/slam.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "cairn/synthetic/demo_scene.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kFrames = 70;
+
+const DemoScene& scene() {
+  static const DemoScene scene(5);
+  return scene;
+}
+
+const std::vector<cv::Mat>& pictures() {
+  static const std::vector<cv::Mat> pictures = [] {
+    std::vector<cv::Mat> result;
+    for (int i = 0; i < kFrames; ++i) result.push_back(scene().render(i / 30.0));
+    return result;
+  }();
+  return pictures;
+}
+
+struct Played {
+  SlamResult result;
+  std::vector<FrameRecord> frames;
+};
+
+Played play(const Options& options) {
+  Slam slam(scene().camera(), options);
+  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  Played played;
+  played.result = slam.finish();
+  played.frames = slam.frames();
+  return played;
+}
+
+Options lockstep(int threads) {
+  Options options;
+  options.pace = Pace::kLockstep;
+  options.threads = threads;
+  return options;
+}
+
+// All numbers of a result, to be compared bit by bit.
+std::vector<double> numbers_of(const SlamResult& result) {
+  std::vector<double> numbers;
+  for (const Trajectory* t : {&result.trajectory, &result.trajectory_live, &result.keyframes}) {
+    for (const StampedPose& p : *t) {
+      numbers.push_back(p.timestamp);
+      for (int i = 0; i < 4; ++i) numbers.push_back(p.T_wc.rotation().coeffs()[i]);
+      for (int i = 0; i < 3; ++i) numbers.push_back(p.T_wc.translation()[i]);
+    }
+  }
+  for (const SlamResult::Point& p : result.points) {
+    for (int i = 0; i < 3; ++i) numbers.push_back(p.position[i]);
+  }
+  return numbers;
+}
+
+TEST(Slam, InLockstepTheResultIsTheSameToTheLastBitWithAnyNumberOfThreads) {
+  const Played one = play(lockstep(1)), again = play(lockstep(1)), two = play(lockstep(2));
+  ASSERT_GT(one.result.trajectory.size(), kFrames / 2u) << one.result.refusal;
+  EXPECT_EQ(numbers_of(one.result), numbers_of(again.result)) << "two runs differ";
+  EXPECT_EQ(numbers_of(one.result), numbers_of(two.result)) << "one and two threads differ";
+  ASSERT_EQ(one.frames.size(), two.frames.size());
+  for (std::size_t i = 0; i < one.frames.size(); ++i) {
+    EXPECT_EQ(one.frames[i].state, two.frames[i].state);
+    EXPECT_EQ(one.frames[i].inliers, two.frames[i].inliers);
+    EXPECT_EQ(one.frames[i].keyframe, two.frames[i].keyframe);
+  }
+}
+
+TEST(Slam, InRealtimeItMakesAMapOfTheSameFrames) {
+  Options options;
+  options.pace = Pace::kRealtime;
+  const Played realtime = play(options);
+  EXPECT_GT(realtime.result.trajectory.size(), kFrames / 2u) << realtime.result.refusal;
+  EXPECT_GE(realtime.result.keyframes.size(), 2u);
+  EXPECT_GT(realtime.result.points.size(), 100u);
+}
+
+TEST(Slam, TheWorldIsTheFirstKeyframe) {
+  const Played one = play(lockstep(0));
+  ASSERT_FALSE(one.result.keyframes.empty());
+  EXPECT_LT(one.result.keyframes.front().T_wc.log().norm(), 1e-9);
+}
+
+TEST(Slam, HasARowForEveryFrame) {
+  Slam slam(scene().camera(), lockstep(0));
+  slam.process(pictures()[0], 0);
+  slam.skip(0.1);
+  slam.drop(0.2);
+  slam.process(pictures()[1], 0.3);
+  const auto& rows = slam.frames();
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].state, FrameState::kInitialising);
+  EXPECT_EQ(rows[1].state, FrameState::kSkipped);
+  EXPECT_EQ(rows[2].state, FrameState::kDropped);
+  EXPECT_EQ(rows[3].timestamp, 0.3);
+}
+
+TEST(Slam, WithoutAMapItSaysWhy) {
+  Slam slam(scene().camera(), lockstep(0));
+  const cv::Mat black = cv::Mat::zeros(480, 640, CV_8UC3);
+  for (int i = 0; i < 3; ++i) {
+    const FrameResult result = slam.process(black, i / 30.0);
+    EXPECT_FALSE(result.T_wc.has_value());
+  }
+  const SlamResult result = slam.finish();
+  EXPECT_FALSE(result.refusal.empty());
+  EXPECT_TRUE(result.trajectory.empty());
+}
+
+TEST(Slam, GreyPicturesGiveTheSamePosesAsColouredOnes) {
+  Slam coloured(scene().camera(), lockstep(0)), grey(scene().camera(), lockstep(0));
+  for (int i = 0; i < 30; ++i) {
+    cv::Mat picture;
+    cv::cvtColor(pictures()[i], picture, cv::COLOR_BGR2GRAY);
+    const auto a = coloured.process(pictures()[i], i / 30.0), b = grey.process(picture, i / 30.0);
+    ASSERT_EQ(a.T_wc.has_value(), b.T_wc.has_value());
+    if (a.T_wc) {
+      EXPECT_EQ(a.T_wc->translation(), b.T_wc->translation());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cairn
