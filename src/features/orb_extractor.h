@@ -8,7 +8,7 @@
 namespace cairn {
 
 struct OrbOptions {
-  int count = 1000;        ///< keypoints a picture, about
+  int count = 1000;        ///< keypoints a picture, about; 0 is for the caller to resolve
   int levels = 8;          ///< pyramid levels
   double scale = 1.2;      ///< size ratio between levels
   int threshold = 20;      ///< FAST: grey-level difference of a good corner

@@ -20,7 +20,7 @@ struct BuriedKeyframe {
   KeyframeId id, parent;
   SE3 T_pk;  ///< keyframe to parent
   double timestamp = 0;
-  std::vector<Sighting> sightings;
+  std::vector<Sighting> sightings = {};
   bool resected = false;  ///< T_pk comes from the final map's points
 };
 

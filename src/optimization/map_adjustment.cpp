@@ -9,6 +9,7 @@
 
 #include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
+#include "cairn/optimization/factors/unit_factor.h"
 #include "cairn/optimization/se3_manifold.h"
 
 namespace cairn {
@@ -69,8 +70,8 @@ class Adjustment {
 
   // The unit of a monocular map is free: keyframes and points can shrink together at no cost, and
   // steps along that direction are as large as the solver's damping lets them be. What hangs on the
-  // keyframes by lengths (frames, buried keyframes) stays behind; so the unit is kept: the spread of
-  // the keyframes around the one that is held. To be called before write_back.
+  // keyframes by lengths (frames, buried keyframes) stays behind; so the unit is kept: the spread
+  // of the keyframes around the one that is held. To be called before write_back.
   void keep_unit() {
     const Eigen::Vector3d origin = map_.keyframes()[keyframes_[free_count_]].T_wc.translation();
     double before = 0, after = 0;
@@ -176,7 +177,27 @@ class Adjustment {
         problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
       }
     }
+    hold_unit();
     if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
+  }
+
+  // With one keyframe held, the scale hangs on the distance to the keyframe that is farthest from
+  // it.
+  void hold_unit() {
+    if (keyframes_.size() != free_count_ + 1) return;
+    const Eigen::Vector3d origin = map_.keyframes()[keyframes_[free_count_]].T_wc.translation();
+    std::size_t farthest = 0;
+    double length = 0;
+    for (std::size_t i = 0; i < free_count_; ++i) {
+      const double d = (map_.keyframes()[keyframes_[i]].T_wc.translation() - origin).norm();
+      if (d > length) {
+        length = d;
+        farthest = i;
+      }
+    }
+    if (length <= 0) return;
+    unit_ = std::make_unique<UnitFactor>(origin, length);
+    problem_->AddResidualBlock(unit_.get(), nullptr, &pose_values_[7 * farthest]);
   }
 
   void collect() {
@@ -203,6 +224,7 @@ class Adjustment {
   std::deque<PointFactor> factors_;
   std::deque<LensPointFactor> lens_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
+  std::unique_ptr<UnitFactor> unit_;
   ceres::HuberLoss loss_{std::sqrt(kGate)};
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;

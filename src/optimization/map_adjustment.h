@@ -9,7 +9,7 @@
 namespace cairn {
 
 struct AdjustmentOptions {
-  int window = 20;  ///< keyframes moved by a local adjustment
+  int window = 30;  ///< keyframes moved by a local adjustment
   int fixed = 30;   ///< keyframes that hold it, at most
   int local_iterations = 8;
   int full_iterations = 40;

@@ -16,7 +16,7 @@ struct Options {
   Pace pace = Pace::kRealtime;
   int threads = 0;  ///< 0: all cores
   std::uint64_t seed = 0;
-  OrbOptions features;
+  OrbOptions features = {.count = 0};  ///< count 0: by the size of the picture
   InitializerOptions initialization;
   TrackingOptions tracking;
   MappingOptions mapping;

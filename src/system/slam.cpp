@@ -17,6 +17,15 @@ namespace {
 constexpr double kYoungMap = 4.0;  // seconds: a map lost so early is not worth going back to
 constexpr int kRestartAfter = 8;   // lost frames, before a young map is given up
 
+// A thousand keypoints for each 640 pixels of width, where the user left the number open.
+Options resolved(Options options, const Camera& camera) {
+  if (options.features.count == 0) {
+    options.features.count =
+        std::max(500, static_cast<int>(std::lround(1000.0 * camera.width() / 640)));
+  }
+  return options;
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
@@ -25,8 +34,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 struct Slam::Implementation {
-  Implementation(const Camera& camera, const Options& options)
-      : options(options),
+  Implementation(const Camera& camera, const Options& given)
+      : options(resolved(given, camera)),
         view(camera, options.features.levels, options.features.scale, options.tracking.sigma_px),
         undistorter(camera),
         extractor(options.features),

@@ -13,7 +13,7 @@ namespace cairn {
 struct InitializerOptions {
   int min_matches = 100;          ///< between the two pictures
   int min_points = 60;            ///< triangulated
-  double min_parallax_deg = 1.2;  ///< median angle between the two rays to a point
+  double min_parallax_deg = 0.9;  ///< median angle between the two rays to a point
   double search_radius = 100;     ///< pixels that a keypoint may move from frame to frame
   double max_wait = 2.0;          ///< seconds that a first picture waits for its partner
 };

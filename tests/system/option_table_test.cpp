@@ -59,8 +59,8 @@ TEST(OptionTable, NamesTheNearestKey) {
 }
 
 TEST(OptionTable, NamesTheRange) {
-  EXPECT_THAT(refusal("features.count=5"), HasSubstr("100 to 20000 keypoints"));
-  EXPECT_THAT(refusal("features.count=99999999999"), HasSubstr("100 to 20000 keypoints"));
+  EXPECT_THAT(refusal("features.count=-5"), HasSubstr("0 to 20000 keypoints"));
+  EXPECT_THAT(refusal("features.count=99999999999"), HasSubstr("0 to 20000 keypoints"));
   EXPECT_THAT(refusal("features.scale=nan"), HasSubstr("out of range"));
   EXPECT_THAT(refusal("pace=slow"), HasSubstr("realtime or lockstep"));
 }
@@ -82,7 +82,7 @@ TEST(OptionTable, PrintsWhatItTakesBack) {
   table.set("pace=lockstep");
   table.set("seed=42");
   const std::string printed = table.print_yaml();
-  EXPECT_THAT(printed, HasSubstr("(default 1000)"));
+  EXPECT_THAT(printed, HasSubstr("(default 0)"));
 
   const File file(printed);
   Options loaded;
