@@ -12,30 +12,32 @@ constexpr float kMostCells = 256;  // along x or y, also if a stray point is ver
 void KeypointGrid::build(std::span<const cv::Point2f> points, std::span<const std::int32_t> octaves,
                          float cell) {
   assert(octaves.empty() || octaves.size() == points.size());
-  unsorted_.resize(points.size());
+  static thread_local std::vector<Entry> unsorted;
+  unsorted.resize(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    unsorted_[i] = {points[i].x, points[i].y, octaves.empty() ? 0 : octaves[i], i};
+    unsorted[i] = {points[i].x, points[i].y, octaves.empty() ? 0 : octaves[i], i};
   }
-  sort_entries(cell);
+  sort_entries(unsorted, cell);
 }
 
 void KeypointGrid::build(const Features& features, float cell) {
-  unsorted_.resize(features.size());
+  static thread_local std::vector<Entry> unsorted;
+  unsorted.resize(features.size());
   for (std::uint32_t i = 0; i < features.size(); ++i) {
     const Keypoint& keypoint = features.keypoints[i];
-    unsorted_[i] = {keypoint.x, keypoint.y, keypoint.octave, i};
+    unsorted[i] = {keypoint.x, keypoint.y, keypoint.octave, i};
   }
-  sort_entries(cell);
+  sort_entries(unsorted, cell);
 }
 
-void KeypointGrid::sort_entries(float cell) {
+void KeypointGrid::sort_entries(std::span<const Entry> unsorted, float cell) {
   x0_ = y0_ = 0;
   float x1 = 0, y1 = 0;
-  if (!unsorted_.empty()) {
-    x0_ = x1 = unsorted_[0].x;
-    y0_ = y1 = unsorted_[0].y;
+  if (!unsorted.empty()) {
+    x0_ = x1 = unsorted[0].x;
+    y0_ = y1 = unsorted[0].y;
   }
-  for (const Entry& entry : unsorted_) {
+  for (const Entry& entry : unsorted) {
     x0_ = std::min(x0_, entry.x);
     y0_ = std::min(y0_, entry.y);
     x1 = std::max(x1, entry.x);
@@ -51,10 +53,10 @@ void KeypointGrid::sort_entries(float cell) {
   const auto cell_of_entry = [&](const Entry& entry) {
     return row(entry.y) * columns_ + column(entry.x);
   };
-  for (const Entry& entry : unsorted_) ++begin_[cell_of_entry(entry) + 2];
+  for (const Entry& entry : unsorted) ++begin_[cell_of_entry(entry) + 2];
   for (std::size_t c = 2; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-  entries_.resize(unsorted_.size());
-  for (const Entry& entry : unsorted_) entries_[begin_[cell_of_entry(entry) + 1]++] = entry;
+  entries_.resize(unsorted.size());
+  for (const Entry& entry : unsorted) entries_[begin_[cell_of_entry(entry) + 1]++] = entry;
 }
 
 void KeypointGrid::query(cv::Point2f center, float radius, int min_octave, int max_octave,

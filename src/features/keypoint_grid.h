@@ -12,7 +12,7 @@
 namespace cairn {
 
 /// Points of a picture by place: which of them lie in a window. Points may lie anywhere, also
-/// outside the picture (undistorted keypoints do). Memory is kept when it is built again.
+/// outside the picture (undistorted keypoints do). Made to be kept: it holds what it needs and no more.
 class KeypointGrid {
  public:
   /// Side of a cell, in pixels, that suits search windows of 5 to 50 pixels.
@@ -69,8 +69,8 @@ class KeypointGrid {
   float x0_ = 0, y0_ = 0, per_pixel_ = 1;
   int columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> begin_ = {0, 0};  ///< of each cell's entries, and the end
-  std::vector<Entry> entries_, unsorted_;
-  void sort_entries(float cell);
+  std::vector<Entry> entries_;
+  void sort_entries(std::span<const Entry> unsorted, float cell);
 };
 
 }  // namespace cairn

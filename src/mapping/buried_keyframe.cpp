@@ -1,11 +1,28 @@
 #include "cairn/mapping/buried_keyframe.h"
 
+#include <cmath>
+#include <limits>
+
 #include "cairn/optimization/pose_adjustment.h"
 
 namespace cairn {
 namespace {
 
 constexpr int kMinInliers = 30;
+constexpr double kFraction = 8;             // parts of a pixel that are kept
+constexpr std::size_t kMaxSightings = 160;  // 2.5 kB; more hardly make the pose any better
+
+// Keeps every n-th, so that all parts of the picture and all octaves stay.
+void thin_out(std::vector<BuriedKeyframe::Sighting>& sightings) {
+  if (sightings.size() > kMaxSightings) {
+    std::vector<BuriedKeyframe::Sighting> kept;
+    for (std::size_t i = 0; i < kMaxSightings; ++i) {
+      kept.push_back(sightings[i * sightings.size() / kMaxSightings]);
+    }
+    sightings = std::move(kept);
+  }
+  sightings.shrink_to_fit();
+}
 
 }  // namespace
 
@@ -18,10 +35,15 @@ BuriedKeyframe bury_keyframe(Map& map, KeyframeId id) {
   buried.T_pk = map.keyframes()[buried.parent].T_wc.inverse() * keyframe.T_wc;
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     if (!keyframe.points[i].valid()) continue;
-    buried.sightings.push_back({keyframe.points[i], keyframe.frame->pixel(i).cast<float>(),
-                                static_cast<float>(map.view().sigma(keyframe.frame->octave(i)))});
+    const Eigen::Vector2d pixel = keyframe.frame->pixel(i) * kFraction;
+    constexpr double kLimit = std::numeric_limits<std::int16_t>::max();
+    if (pixel.cwiseAbs().maxCoeff() > kLimit) continue;
+    buried.sightings.push_back({keyframe.points[i],
+                                static_cast<std::int16_t>(std::lround(pixel.x())),
+                                static_cast<std::int16_t>(std::lround(pixel.y())),
+                                static_cast<std::uint8_t>(keyframe.frame->octave(i))});
   }
-  buried.sightings.shrink_to_fit();
+  thin_out(buried.sightings);
   map.erase_keyframe(id);
   return buried;
 }
@@ -53,7 +75,8 @@ void resect_buried_keyframes(const Map& map, std::span<BuriedKeyframe> buried) {
       if (!(X.z() > 0)) continue;
       // The pixel that the camera would have seen if the calibration were right.
       const Eigen::Vector2d bend = map.lens().project(pinhole, X) - pinhole.project(X);
-      observations.push_back({point->position, s.pixel.cast<double>() - bend, s.sigma});
+      const Eigen::Vector2d pixel = Eigen::Vector2d(s.x, s.y) / kFraction;
+      observations.push_back({point->position, pixel - bend, map.view().sigma(s.octave)});
     }
     const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, T_wc, inlier);
     if (!summary.usable || summary.inliers < kMinInliers) continue;

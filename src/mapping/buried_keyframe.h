@@ -14,8 +14,8 @@ namespace cairn {
 struct BuriedKeyframe {
   struct Sighting {
     PointId point;
-    Eigen::Vector2f pixel;
-    float sigma = 1;  ///< pixels
+    std::int16_t x = 0, y = 0;  ///< eighths of a pixel
+    std::uint8_t octave = 0;
   };
   KeyframeId id, parent;
   SE3 T_pk;  ///< keyframe to parent

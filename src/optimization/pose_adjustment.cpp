@@ -25,7 +25,7 @@ bool residual(const PoseObservation& o, const Pinhole& K, const Eigen::Matrix3d&
   X_c = R_cw * o.position + t_cw;
   if (!(X_c.z() > kMinDepth)) return false;
   e = (K.project(X_c) - o.pixel) / o.sigma;
-  return true;
+  return e.allFinite();
 }
 
 NormalEquations linearise(std::span<const PoseObservation> observations, const Pinhole& K,
@@ -59,16 +59,20 @@ NormalEquations linearise(std::span<const PoseObservation> observations, const P
 
 PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
                                   const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier) {
-  PoseAdjustmentSummary summary;
   inlier.assign(observations.size(), 1);
+  PoseAdjustmentSummary summary;
   SE3 pose = T_wc;
+  const auto refuse = [&] {
+    inlier.assign(observations.size(), 0);
+    return PoseAdjustmentSummary{};
+  };
   for (int round = 0; round < kRounds; ++round) {
     const bool robust = round < kRounds - 1;
     for (int iteration = 0; iteration < kIterations; ++iteration) {
       const NormalEquations n = linearise(observations, pinhole, pose.inverse(), inlier, robust);
-      if (n.used < 3) return summary;
+      if (n.used < 3) return refuse();
       const Vector6d step = n.H.ldlt().solve(-n.g);
-      if (!step.allFinite()) return summary;
+      if (!step.allFinite()) return refuse();
       pose = pose * SE3::exp(step);
       if (step.tail<3>().norm() < 1e-7 && step.head<3>().norm() < 1e-8) break;
     }
@@ -86,11 +90,12 @@ PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
         sum += e.squaredNorm();
       }
     }
-    if (summary.inliers < 3) return summary;
+    if (summary.inliers < 3) return refuse();
     summary.rms = std::sqrt(sum / summary.inliers);
   }
-  summary.usable = pose.is_finite();
-  if (summary.usable) T_wc = pose;
+  if (!pose.is_finite()) return refuse();
+  summary.usable = true;
+  T_wc = pose;
   return summary;
 }
 

@@ -92,11 +92,9 @@ void MappingSchedule::run_insertion(const Insertion& insertion) {
 }
 
 void MappingSchedule::run_question(const Question& question) {
-  std::vector<KeyframeId> candidates;
   const Map& map = mapper_->map();
-  for (const auto& match : mapper_->retrieval().query(question.frame->features, kCandidates)) {
-    candidates.push_back(mapper_->keyframe_in_slot(match.id));
-  }
+  const std::vector<KeyframeId> candidates =
+      mapper_->similar_keyframes(question.frame->features, kCandidates);
   Answer answer{question.frame,
                 cairn::relocalize(*question.frame, map, candidates, tracking_, question.seed)};
   const std::lock_guard lock(mutex_);

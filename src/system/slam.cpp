@@ -59,6 +59,7 @@ struct Slam::Implementation {
   View view;
   Undistorter undistorter;
   OrbExtractor extractor;
+  Features extracted;  // reused between frames
   Initializer initializer;
   Tracker tracker;
   std::optional<tbb::global_control> threads;
@@ -93,8 +94,8 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
   frame->timestamp = timestamp;
   cv::Mat grey = picture;
   if (picture.channels() == 3) cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
-  extractor.extract(grey, frame->features);
-  undistorter.apply(frame->features, [&](float x, float y) {
+  extractor.extract(grey, extracted);
+  undistorter.apply(extracted, [&](float x, float y) {
     const int c = std::clamp(static_cast<int>(std::lround(x)), 0, picture.cols - 1);
     const int r = std::clamp(static_cast<int>(std::lround(y)), 0, picture.rows - 1);
     if (picture.channels() == 1) {
@@ -105,6 +106,8 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
       frame->colours.emplace_back(bgr[2], bgr[1], bgr[0]);
     }
   });
+  frame->features = extracted;  // a copy that holds no more memory than it needs
+  frame->colours.shrink_to_fit();
   frame->grid.build(frame->features);
   return frame;
 }

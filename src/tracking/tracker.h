@@ -73,7 +73,6 @@ class Tracker {
   int frames_since_start_ = 0;
   int frames_since_keyframe_ = 0;
   double last_keyframe_time_ = 0;
-  int keyframe_tracked_ = 0;
 
   // Reused between frames.
   std::vector<std::uint32_t> current_points_;
