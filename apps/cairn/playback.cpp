@@ -28,7 +28,7 @@ Playback play(FrameSource& source, Slam& slam, Pace pace, const FrameListener& l
     if (!frame.problem.empty()) {
       ++playback.skipped;
       if (playback.problems.size() < kProblemsKept) {
-        playback.problems.push_back(frame.name + ": " + frame.problem);
+        playback.problems.push_back(frame.problem);
       }
       slam.skip(frame.timestamp);
       result.record = slam.frames().back();

@@ -14,9 +14,10 @@ namespace cairn {
 struct SourceFrame {
   /// Seconds. Where the input gives no usable time (see `problem`), the time of the frame before.
   double timestamp = 0;
-  cv::Mat image;        ///< CV_8UC1 or CV_8UC3 (BGR)
-  std::string name;     ///< file name, or number in the video
-  std::string problem;  ///< not empty: why this frame cannot be used; the image is empty then
+  cv::Mat image;     ///< CV_8UC1 or CV_8UC3 (BGR)
+  std::string name;  ///< file name, or number in the video
+  /// Not empty: why this frame cannot be used, with the name of the file; the image is empty then.
+  std::string problem;
 };
 
 /// A stream of frames. Not for concurrent use.

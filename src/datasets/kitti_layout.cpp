@@ -68,8 +68,10 @@ void list_pictures(const fs::path& images, const fs::path& times_file, Listing& 
   const auto files = std::count_if(fs::directory_iterator(images), fs::directory_iterator(),
                                    [](const auto& entry) { return is_picture_name(entry.path()); });
   for (std::size_t i = times.size(); i < std::size_t(files); ++i) {
-    listing.pictures.push_back({std::numeric_limits<double>::quiet_NaN(), picture_of(images, i),
-                                times_file.string() + " has no timestamp for this picture"});
+    const fs::path picture = picture_of(images, i);
+    listing.pictures.push_back(
+        {std::numeric_limits<double>::quiet_NaN(), picture,
+         picture.filename().string() + ": there is no timestamp for it in " + times_file.string()});
   }
 }
 

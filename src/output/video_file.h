@@ -16,7 +16,8 @@ class VideoFile {
 
   /// `picture`: CV_8UC3 of the size of the first. Throws Error(kOutput) if it cannot be begun.
   void write(const cv::Mat& picture);
-  /// Closes and names the file; nothing happens if there was no picture. Throws Error(kOutput).
+  /// Closes and names the file; nothing happens if there was no picture. Throws Error(kOutput) if
+  /// it did not reach the disk as a whole.
   void finish();
 
  private:

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <random>
@@ -176,6 +178,47 @@ TEST(VideoFile, SaysWhatItCannotDo) {
   VideoFile nowhere(folder / "no/a.avi", 10);
   EXPECT_THAT(error_of(Error::Kind::kOutput, [&] { nowhere.write(test_picture(0)); }),
               HasSubstr("no/a.avi"));
+}
+
+// Files of this process end at so many bytes, as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  sighandler_t handler_;
+  rlimit before_{};
+};
+
+TEST(VideoFile, ThatDoesNotFitOnTheDiskIsRefusedAndGone) {
+  TempFolder folder;
+  const auto write_video = [&](const std::filesystem::path& file) {
+    VideoFile video(file, 10);
+    for (int i = 0; i < 12; ++i) video.write(test_picture(i));
+    video.finish();
+  };
+  for (const char* name : {"a.avi", "a.mp4"}) {
+    write_video(folder / name);
+    const auto size = std::filesystem::file_size(folder / name);
+    std::filesystem::remove(folder / name);
+    for (const auto limit : {size / 2, size - 16}) {
+      const FileSizeLimit full(limit);
+      EXPECT_THAT(error_of(Error::Kind::kOutput, [&] { write_video(folder / name); }),
+                  HasSubstr(std::string(name) + ": the video did not reach the disk"))
+          << limit << " of " << size;
+      EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    }
+  }
 }
 
 }  // namespace
