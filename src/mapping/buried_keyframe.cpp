@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMinInliers = 30;
 constexpr double kFraction = 8;             // parts of a pixel that are kept
-constexpr std::size_t kMaxSightings = 160;  // 2.5 kB; more hardly make the pose any better
+constexpr std::size_t kMaxSightings = 256;  // 4 kB; more hardly make the pose any better
 
 // Keeps every n-th, so that all parts of the picture and all octaves stay.
 void thin_out(std::vector<BuriedKeyframe::Sighting>& sightings) {

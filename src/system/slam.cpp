@@ -35,7 +35,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 struct Slam::Implementation {
   Implementation(const Camera& camera, const Options& given)
-      : options(resolved(given, camera)),
+      : camera(camera),
+        options(resolved(given, camera)),
         view(camera, options.features.levels, options.features.scale, options.tracking.sigma_px),
         undistorter(camera),
         extractor(options.features),
@@ -53,8 +54,9 @@ struct Slam::Implementation {
   bool recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   void hand_over_keyframe();
   void restart();
-  std::vector<PointId> mapped_points() const;
+  std::vector<FrameResult::Feature> seen_features(const Frame& frame, FrameState state) const;
 
+  Camera camera;
   Options options;
   View view;
   Undistorter undistorter;
@@ -86,6 +88,20 @@ void Slam::drop(double timestamp) {
 
 void Slam::skip(double timestamp) {
   implementation_->records.push_back({.timestamp = timestamp, .state = FrameState::kSkipped});
+}
+
+// Where keypoints lie in the picture as it was given, with the bend of its lens.
+std::vector<FrameResult::Feature> Slam::Implementation::seen_features(const Frame& frame,
+                                                                      FrameState state) const {
+  const bool tracked = state == FrameState::kTracked && tracker.last().frame.get() == &frame;
+  std::vector<FrameResult::Feature> features;
+  features.reserve(frame.size());
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Eigen::Vector2f pixel =
+        camera.project(view.pinhole().unproject(frame.pixel(i))).cast<float>();
+    features.push_back({pixel.x(), pixel.y(), tracked && tracker.last().points[i].valid()});
+  }
+  return features;
 }
 
 std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& picture,
@@ -137,17 +153,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp) {
     s.lose(frame, record);
   }
   record.total_ms = milliseconds_since(start) - mapping_ms;
-  if (record.state == FrameState::kTracked || record.keyframe) {
-    const TrackedFrame& tracked = s.tracker.last();
-    for (std::size_t i = 0; i < tracked.frame->size(); ++i) {
-      const Keypoint& kp = tracked.frame->features.keypoints[i];
-      result.features.push_back(
-          {kp.x, kp.y, i < tracked.points.size() && tracked.points[i].valid()});
-    }
-  } else {
-    for (const Keypoint& kp : frame->features.keypoints)
-      result.features.push_back({kp.x, kp.y, false});
-  }
+  result.features = s.seen_features(*frame, record.state);
   s.records.push_back(record);
   return result;
 }
