@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "cairn/datasets/groundtruth.h"
 #include "datasets/temp_folder.h"
 
@@ -265,8 +267,11 @@ TEST(OpenSequence, RefusesOptionsThatCannotBe) {
 }
 
 TEST(OpenSequence, ReadsTheRealSequences) {
-  const std::filesystem::path data = "/work/shared/data";
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << "no real sequences in " << data;
+  const char* const given = std::getenv("CAIRN_DATA");
+  const std::filesystem::path data = given != nullptr ? given : CAIRN_SOURCE_DIR "/../shared/data";
+  if (!std::filesystem::exists(data)) {
+    GTEST_SKIP() << "no real sequences in " << data << "; set CAIRN_DATA to the data folder";
+  }
   const std::map<std::string, std::size_t> counts = {
       {"redkitchen", 1000}, {"tum_fr1_xyz", 798}, {"kitti_00", 200}};
   for (const auto& [name, count] : counts) {
