@@ -14,7 +14,8 @@ struct ListedPicture {
   std::string problem;  ///< not empty: the layout itself is broken here
 };
 
-/// Frames from picture files with known times. Files are decoded in `next`.
+/// Frames from picture files with known times. Files are decoded in `next`. A time that is later
+/// than what follows it is a problem of its own frame, not of the frames that follow.
 class PictureListSource : public FrameSource {
  public:
   PictureListSource(std::vector<ListedPicture> pictures, bool colour);

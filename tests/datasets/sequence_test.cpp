@@ -109,6 +109,19 @@ TEST(OpenSequence, MarksBrokenFramesAndGoesOn) {
   }
 }
 
+TEST(OpenSequence, LosesOneFrameOnlyToATimeThatIsFarAhead) {
+  TempFolder folder;
+  write_tum(folder);
+  folder.write("rgb.txt",
+               "1 rgb/0.png\n9e9 rgb/1.png\nnan rgb/2.png\n2 rgb/2.png\n3 rgb/3.png\n0 rgb/4.png\n"
+               "4 rgb/4.png\n");
+  Sequence sequence = open_sequence(folder.path().string());
+  std::vector<std::string> problems;
+  for (const SourceFrame& frame : all_frames(sequence)) problems.push_back(frame.problem);
+  EXPECT_THAT(problems, testing::ElementsAre("", HasSubstr("ahead of those"), HasSubstr("nan"), "",
+                                             "", HasSubstr("goes back"), ""));
+}
+
 TEST(OpenSequence, KnowsThePublishedCameraOfTumDownloads) {
   TempFolder folder;
   write_picture(folder / "rgbd_dataset_freiburg3_x/rgb/0.png", 0, {640, 480});

@@ -134,6 +134,12 @@ TEST_F(BadInput, ATimestampThatGoesBackIsSkipped) {
   expect_one_skipped("its timestamp 3.250000 s goes back behind");
 }
 
+TEST_F(BadInput, ATimestampFarAheadIsSkippedAndTheFramesBehindItAreNot) {
+  list_[kBad].timestamp = "999999";
+  write_list();
+  expect_one_skipped("its timestamp 999999.000000 s is ahead of those that follow it");
+}
+
 TEST_F(BadInput, ATimestampThatIsNoNumberIsSkipped) {
   list_[kBad].timestamp = "nan";
   write_list();
