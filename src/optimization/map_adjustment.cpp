@@ -167,8 +167,8 @@ class Adjustment {
       const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
       const Pinhole& pinhole = map_.view().pinhole();
       const double sigma = map_.view().sigma(frame.octave(edge.keypoint));
-      double* pose = &pose_values_[7 * edge.keyframe];
-      double* point = &point_values_[3 * edge.point];
+      double* pose = &pose_values_[std::size_t{7} * edge.keyframe];
+      double* point = &point_values_[std::size_t{3} * edge.point];
       if (refine_lens_) {
         lens_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
         problem_->AddResidualBlock(&lens_factors_.back(), &loss_, pose, point, lens_.values.data());
@@ -263,6 +263,7 @@ std::vector<KeyframeId> holders(const Map& map, const std::vector<KeyframeId>& f
   });
   if (static_cast<int>(counts.size()) > limit) counts.resize(limit);
   std::vector<KeyframeId> result;
+  result.reserve(counts.size());
   for (const auto& [count, id] : counts) result.push_back(id);
   return result;
 }

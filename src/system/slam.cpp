@@ -48,7 +48,7 @@ struct Slam::Implementation {
   }
 
   std::shared_ptr<const Frame> make_frame(const cv::Mat& picture, double timestamp);
-  void initialise(std::shared_ptr<const Frame> frame, FrameRecord& record);
+  void initialise(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   bool track(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   void lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   bool recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
@@ -118,7 +118,7 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
       frame->colours.push_back(
           Eigen::Matrix<unsigned char, 3, 1>::Constant(picture.at<unsigned char>(r, c)));
     } else {
-      const cv::Vec3b bgr = picture.at<cv::Vec3b>(r, c);
+      const auto& bgr = picture.at<cv::Vec3b>(r, c);
       frame->colours.emplace_back(bgr[2], bgr[1], bgr[0]);
     }
   });
@@ -158,7 +158,8 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp) {
   return result;
 }
 
-void Slam::Implementation::initialise(std::shared_ptr<const Frame> frame, FrameRecord& record) {
+void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
+                                      FrameRecord& record) {
   const auto start = std::chrono::steady_clock::now();
   record.state = FrameState::kInitialising;
   const std::optional<InitialPair> pair = initializer.add(frame);
