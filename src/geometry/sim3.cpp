@@ -68,9 +68,9 @@ Vector7d Sim3::log() const {
   return xi;
 }
 
-Alignment align_umeyama(std::span<const Vector3d> from, std::span<const Vector3d> to,
-                        bool with_scale) {
-  Alignment result;
+SimilarityFit align_umeyama(std::span<const Vector3d> from, std::span<const Vector3d> to,
+                            bool with_scale) {
+  SimilarityFit result;
   const auto refuse = [&](const std::string& why) {
     result.refusal = why;
     return result;

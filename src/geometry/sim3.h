@@ -51,7 +51,7 @@ class Sim3 {
   Eigen::Vector3d t_;
 };
 
-struct Alignment {
+struct SimilarityFit {
   bool usable = false;
   std::string refusal;  ///< a sentence for people where it is not usable
   Sim3 transform;       ///< `to` ≈ transform * `from`
@@ -63,7 +63,7 @@ struct Alignment {
 /// transformation parameters between two point patterns" (PAMI 1991). Refuses fewer than three
 /// points, points in one place or on one line (their rotation is not defined), numbers that are not
 /// finite.
-Alignment align_umeyama(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to,
-                        bool with_scale);
+SimilarityFit align_umeyama(std::span<const Eigen::Vector3d> from,
+                            std::span<const Eigen::Vector3d> to, bool with_scale);
 
 }  // namespace cairn

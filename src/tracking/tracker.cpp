@@ -47,10 +47,7 @@ void Tracker::start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
   keyframe_made();
 }
 
-void Tracker::keyframe_made() {
-  frames_since_keyframe_ = 0;
-  last_keyframe_time_ = last_.frame->timestamp;
-}
+void Tracker::keyframe_made() { last_keyframe_time_ = last_.frame->timestamp; }
 
 // A new view: the last frame moves with its reference keyframe, its points get new indices.
 void Tracker::adopt_view(const std::shared_ptr<const MapView>& view) {
@@ -91,7 +88,6 @@ const TrackedFrame* Tracker::track(std::shared_ptr<const Frame> frame,
   velocity_ = last_.T_wc.inverse() * T_wc;
   velocity_seconds_ = std::max(frame->timestamp - last_.frame->timestamp, 1e-6);
   ++frames_since_start_;
-  ++frames_since_keyframe_;
   last_.frame = std::move(frame);
   last_.T_wc = T_wc;
   last_.reference = map_->reference;

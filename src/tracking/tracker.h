@@ -71,7 +71,6 @@ class Tracker {
   double velocity_seconds_ = 0;
   bool has_velocity_ = false;
   int frames_since_start_ = 0;
-  int frames_since_keyframe_ = 0;
   double last_keyframe_time_ = 0;
 
   // Reused between frames.

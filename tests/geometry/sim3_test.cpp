@@ -80,7 +80,7 @@ TEST(Umeyama, FindsAKnownSimilarity) {
     const std::vector<Vector3d> from = random_points(random, 3 + trial);
     std::vector<Vector3d> to;
     for (const Vector3d& x : from) to.push_back(truth * x);
-    const Alignment found = align_umeyama(from, to, true);
+    const SimilarityFit found = align_umeyama(from, to, true);
     ASSERT_TRUE(found.usable) << found.refusal;
     EXPECT_LT((found.transform.matrix() - truth.matrix()).norm(), 1e-9);
     EXPECT_LT(found.rmse, 1e-9);
@@ -92,7 +92,7 @@ TEST(Umeyama, KeepsTheScaleWhenAskedTo) {
   const std::vector<Vector3d> from = random_points(random, 40);
   std::vector<Vector3d> to;
   for (const Vector3d& x : from) to.push_back(1.5 * x + Vector3d(1, 2, 3));
-  const Alignment found = align_umeyama(from, to, false);
+  const SimilarityFit found = align_umeyama(from, to, false);
   ASSERT_TRUE(found.usable);
   EXPECT_EQ(found.transform.scale(), 1);
   EXPECT_GT(found.rmse, 0.1);
@@ -106,7 +106,7 @@ TEST(Umeyama, FindsARotationAndNoReflectionForPointsOnAPlane) {
     x.z() = 0;
     to.push_back(truth * x);
   }
-  const Alignment found = align_umeyama(from, to, true);
+  const SimilarityFit found = align_umeyama(from, to, true);
   ASSERT_TRUE(found.usable);
   EXPECT_LT((found.transform.matrix() - truth.matrix()).norm(), 1e-9);
 }

@@ -206,7 +206,7 @@ inline MapErrors errors_of(const Map& map, const PointWorld& world) {
     from.push_back(p.position);
     to.push_back(world.position(index));
   });
-  const Alignment alignment = align_umeyama(from, to, true);
+  const SimilarityFit alignment = align_umeyama(from, to, true);
   if (!alignment.usable) return {.median = NAN, .camera = NAN, .rotation_deg = NAN, .to_world = {}};
   errors.to_world = alignment.transform;
   std::vector<double> distances;
