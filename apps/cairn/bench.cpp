@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "bench_memory.h"
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
 #include "cairn/output/summary.h"
@@ -173,10 +174,11 @@ int bench_tracking(const Arguments& arguments) {
 
 Action add_bench(CLI::App& program) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("bench", "Prints repeatable tables of speed");
+  CLI::App* command =
+      program.add_subcommand("bench", "Prints repeatable tables of speed and memory");
   command->add_option("subject", arguments->subject, "what to measure")
       ->required()
-      ->check(CLI::IsMember({"tracking"}));
+      ->check(CLI::IsMember({"tracking", "memory"}));
   command->add_option("--data", arguments->data, "a sequence, repeatable; default: the demo scene")
       ->type_name("PATH")
       ->expected(1)
@@ -185,7 +187,14 @@ Action add_bench(CLI::App& program) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "one JSON object in place of the table");
-  return [arguments] { return bench_tracking(*arguments); };
+  return [arguments] {
+    if (arguments->subject == "tracking") return bench_tracking(*arguments);
+    if (arguments->data.empty()) {
+      throw Error(Error::Kind::kUsage, "bench memory: which sequence? Give --data PATH");
+    }
+    remember_interrupts();
+    return bench_memory(arguments->data, arguments->seeds, arguments->json);
+  };
 }
 
 }  // namespace cairn::app

@@ -13,9 +13,11 @@ namespace cairn {
 /// An oriented FAST corner, in pixels of the full-size picture (level 0, centres at integers).
 struct Keypoint {
   float x = 0, y = 0;
-  float angle = 0;     ///< radians, x towards y
-  float response = 0;  ///< corner strength, comparable within one octave
-  std::int32_t octave = 0;
+  float angle = 0;            ///< radians, x towards y
+  std::uint8_t response = 0;  ///< FAST's score: comparable within one octave
+  std::int8_t octave = 0;
+
+  bool operator==(const Keypoint&) const = default;
 };
 
 /// 256 binary tests of rotated BRIEF.

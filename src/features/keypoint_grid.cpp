@@ -1,6 +1,7 @@
 #include "cairn/features/keypoint_grid.h"
 
 #include <cassert>
+#include <limits>
 
 namespace cairn {
 namespace {
@@ -9,39 +10,19 @@ constexpr float kMostCells = 256;  // along x or y, also if a stray point is ver
 
 }  // namespace
 
-void KeypointGrid::build(std::span<const cv::Point2f> points, std::span<const std::int32_t> octaves,
-                         float cell) {
-  assert(octaves.empty() || octaves.size() == points.size());
-  static thread_local std::vector<Entry> unsorted;
-  unsorted.resize(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    unsorted[i] = {points[i].x, points[i].y, octaves.empty() ? 0 : octaves[i], i};
-  }
-  sort_entries(unsorted, cell);
-}
-
-void KeypointGrid::build(const Features& features, float cell) {
-  static thread_local std::vector<Entry> unsorted;
-  unsorted.resize(features.size());
-  for (std::uint32_t i = 0; i < features.size(); ++i) {
-    const Keypoint& keypoint = features.keypoints[i];
-    unsorted[i] = {keypoint.x, keypoint.y, keypoint.octave, i};
-  }
-  sort_entries(unsorted, cell);
-}
-
-void KeypointGrid::sort_entries(std::span<const Entry> unsorted, float cell) {
+void KeypointGrid::build(std::span<const Keypoint> keypoints, float cell) {
+  assert(keypoints.size() <= std::numeric_limits<std::uint16_t>::max());
   x0_ = y0_ = 0;
   float x1 = 0, y1 = 0;
-  if (!unsorted.empty()) {
-    x0_ = x1 = unsorted[0].x;
-    y0_ = y1 = unsorted[0].y;
+  if (!keypoints.empty()) {
+    x0_ = x1 = keypoints[0].x;
+    y0_ = y1 = keypoints[0].y;
   }
-  for (const Entry& entry : unsorted) {
-    x0_ = std::min(x0_, entry.x);
-    y0_ = std::min(y0_, entry.y);
-    x1 = std::max(x1, entry.x);
-    y1 = std::max(y1, entry.y);
+  for (const Keypoint& keypoint : keypoints) {
+    x0_ = std::min(x0_, keypoint.x);
+    y0_ = std::min(y0_, keypoint.y);
+    x1 = std::max(x1, keypoint.x);
+    y1 = std::max(y1, keypoint.y);
   }
   cell = std::max({cell, (x1 - x0_) / kMostCells, (y1 - y0_) / kMostCells});
   per_pixel_ = 1 / cell;
@@ -50,20 +31,15 @@ void KeypointGrid::sort_entries(std::span<const Entry> unsorted, float cell) {
 
   // Counting sort: begin_[c + 1] counts, then runs, so that it ends as the beginning of cell c + 1.
   begin_.assign(static_cast<std::size_t>(columns_) * rows_ + 2, 0);
-  const auto cell_of_entry = [&](const Entry& entry) {
-    return row(entry.y) * columns_ + column(entry.x);
+  const auto cell_of_keypoint = [&](const Keypoint& keypoint) {
+    return row(keypoint.y) * columns_ + column(keypoint.x);
   };
-  for (const Entry& entry : unsorted) ++begin_[cell_of_entry(entry) + 2];
+  for (const Keypoint& keypoint : keypoints) ++begin_[cell_of_keypoint(keypoint) + 2];
   for (std::size_t c = 2; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-  entries_.resize(unsorted.size());
-  for (const Entry& entry : unsorted) entries_[begin_[cell_of_entry(entry) + 1]++] = entry;
-}
-
-void KeypointGrid::query(cv::Point2f center, float radius, int min_octave, int max_octave,
-                         std::vector<std::uint32_t>& found) const {
-  found.clear();
-  for_each(center, radius, min_octave, max_octave,
-           [&](std::uint32_t index) { found.push_back(index); });
+  index_.resize(keypoints.size());
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    index_[begin_[cell_of_keypoint(keypoints[i]) + 1]++] = static_cast<std::uint16_t>(i);
+  }
 }
 
 }  // namespace cairn

@@ -11,24 +11,24 @@
 
 namespace cairn {
 
-/// Points of a picture by place: which of them lie in a window. Points may lie anywhere, also
-/// outside the picture (undistorted keypoints do). Made to be kept: it holds what it needs and no more.
+/// Keypoints of a picture by place: which of them lie in a window. They may lie anywhere, also
+/// outside the picture (undistorted keypoints do). Made to be kept beside them, so it holds no more
+/// than their numbers.
 class KeypointGrid {
  public:
   /// Side of a cell, in pixels, that suits search windows of 5 to 50 pixels.
   static constexpr float kCell = 24;
 
   KeypointGrid() = default;
-  /// `octaves` belongs to `points` element by element, or is empty: all zero.
-  void build(std::span<const cv::Point2f> points, std::span<const std::int32_t> octaves = {},
-             float cell = kCell);
-  void build(const Features& features, float cell = kCell);
+  /// At most 65535 keypoints.
+  void build(std::span<const Keypoint> keypoints, float cell = kCell);
 
-  /// Calls visit(index) for every point with |x - center.x| <= radius, |y - center.y| <= radius and
-  /// min_octave <= octave <= max_octave; cell by cell, in a cell by index.
+  /// Calls visit(index) for every keypoint with |x - center.x| <= radius, |y - center.y| <= radius
+  /// and min_octave <= octave <= max_octave; cell by cell, in a cell by index. `keypoints`: those
+  /// that the grid was built from.
   template <class Visit>
-  void for_each(cv::Point2f center, float radius, int min_octave, int max_octave,
-                Visit&& visit) const {
+  void for_each(std::span<const Keypoint> keypoints, cv::Point2f center, float radius,
+                int min_octave, int max_octave, Visit&& visit) const {
     const int column0 = column(center.x - radius), column1 = column(center.x + radius);
     const int row0 = row(center.y - radius), row1 = row(center.y + radius);
     for (int y = row0; y <= row1; ++y) {
@@ -36,28 +36,19 @@ class KeypointGrid {
       const std::uint32_t begin = begin_[y * columns_ + column0];
       const std::uint32_t end = begin_[y * columns_ + column1 + 1];
       for (std::uint32_t i = begin; i < end; ++i) {
-        const Entry& entry = entries_[i];
-        if (std::abs(entry.x - center.x) <= radius && std::abs(entry.y - center.y) <= radius &&
-            entry.octave >= min_octave && entry.octave <= max_octave) {
-          visit(entry.index);
+        const Keypoint& keypoint = keypoints[index_[i]];
+        if (std::abs(keypoint.x - center.x) <= radius &&
+            std::abs(keypoint.y - center.y) <= radius && keypoint.octave >= min_octave &&
+            keypoint.octave <= max_octave) {
+          visit(std::uint32_t{index_[i]});
         }
       }
     }
   }
 
-  /// The same into `found`, whose memory is reused.
-  void query(cv::Point2f center, float radius, int min_octave, int max_octave,
-             std::vector<std::uint32_t>& found) const;
-
-  std::size_t size() const { return entries_.size(); }
+  std::size_t size() const { return index_.size(); }
 
  private:
-  struct Entry {
-    float x = 0, y = 0;
-    std::int32_t octave = 0;
-    std::uint32_t index = 0;
-  };
-
   // The clamp comes before the conversion: far or NaN coordinates must not overflow an int.
   int column(float x) const { return cell_of(x - x0_, columns_); }
   int row(float y) const { return cell_of(y - y0_, rows_); }
@@ -68,9 +59,8 @@ class KeypointGrid {
 
   float x0_ = 0, y0_ = 0, per_pixel_ = 1;
   int columns_ = 1, rows_ = 1;
-  std::vector<std::uint32_t> begin_ = {0, 0};  ///< of each cell's entries, and the end
-  std::vector<Entry> entries_;
-  void sort_entries(std::span<const Entry> unsorted, float cell);
+  std::vector<std::uint16_t> begin_ = {0, 0};  ///< of each cell's keypoints, and the end
+  std::vector<std::uint16_t> index_;
 };
 
 }  // namespace cairn

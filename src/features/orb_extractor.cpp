@@ -140,7 +140,8 @@ void OrbExtractor::Buffers::describe_one(int level, const FastCorner& corner, bo
   cv::Point2f point(corner.x, corner.y);
   if (subpixel) point += peak_offset(fast_contrast_3x3(center, step));
   const cv::Point2f base = pyramid.to_base(point, level);
-  keypoint = {base.x, base.y, angle_of(orientation), static_cast<float>(corner.score), level};
+  keypoint = {base.x, base.y, angle_of(orientation), static_cast<std::uint8_t>(corner.score),
+              static_cast<std::int8_t>(level)};
   descriptor = cairn::describe(blurred[level].ptr(corner.y) + corner.x,
                                static_cast<std::ptrdiff_t>(blurred[level].step), orientation);
 }

@@ -1,119 +1,102 @@
 #include "cairn/features/retrieval.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
+#include <memory>
+#include <unordered_map>
 
 namespace cairn {
+namespace {
 
-KeyframeRetrieval::KeyframeRetrieval() { clear(); }
+constexpr int kTables = 2;
+constexpr int kBits = 18;
+constexpr std::uint32_t kNobody = 0xffffffff;
 
-void KeyframeRetrieval::clear() {
-  words_.assign(std::size_t{kTables} << kBits, {});
-  chunks_.clear();
-  slots_.clear();
-  slot_of_.clear();
+std::uint32_t word_of(const Descriptor& descriptor, int table) {
+  return (static_cast<std::uint32_t>(table) << kBits) |
+         ((descriptor[0] >> (table * kBits)) & ((1U << kBits) - 1));
 }
 
-void KeyframeRetrieval::list(std::uint32_t word, std::uint32_t slot) {
-  Word& entry = words_[word];
-  const std::size_t used = entry.count % Chunk{}.slots.size();
-  if (entry.count > 0) {
-    // A picture is listed once under a word, however many of its features have it.
-    const Chunk& newest = chunks_[entry.head];
-    if (newest.slots[used == 0 ? newest.slots.size() - 1 : used - 1] == slot) return;
-  }
-  if (used == 0) {
-    // Doubling, as push_back does, would waste too much of what is meant to be small.
-    if (chunks_.size() == chunks_.capacity()) chunks_.reserve(chunks_.size() * 5 / 4 + 4096);
-    chunks_.push_back({entry.head, {kNone, kNone, kNone}});
-    entry.head = static_cast<std::uint32_t>(chunks_.size() - 1);
-  }
-  chunks_[entry.head].slots[used] = slot;
-  ++entry.count;
-}
+// The words of the wanted picture. The bits are there because nearly all words that are looked up
+// are not.
+class Words {
+ public:
+  struct Word {
+    int wanted = 0;                  ///< features of the wanted picture that have it
+    int pictures = 0;                ///< that have it
+    std::uint32_t newest = kNobody;  ///< of these
+  };
 
-void KeyframeRetrieval::add(Id id, const Features& features) {
-  remove(id);
-  const auto slot = static_cast<std::uint32_t>(slots_.size());
-  slots_.push_back({id, static_cast<std::uint32_t>(features.size()), true});
-  slot_of_[id] = slot;
-  for (const Descriptor& descriptor : features.descriptors) {
-    for (int table = 0; table < kTables; ++table) list(word_of(descriptor, table), slot);
-  }
-}
-
-void KeyframeRetrieval::remove(Id id) {
-  const auto found = slot_of_.find(id);
-  if (found == slot_of_.end()) return;
-  slots_[found->second].alive = false;
-  slot_of_.erase(found);
-  constexpr std::size_t kWorthIt = 64;
-  if (slots_.size() >= 2 * std::max(slot_of_.size(), kWorthIt)) compact();
-}
-
-/// Lists again what is still there, in the same order.
-void KeyframeRetrieval::compact() {
-  std::vector<std::uint32_t> new_slot(slots_.size(), kNone);
-  std::vector<Slot> alive;
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    if (!slots_[i].alive) continue;
-    new_slot[i] = static_cast<std::uint32_t>(alive.size());
-    slot_of_[slots_[i].id] = new_slot[i];
-    alive.push_back(slots_[i]);
-  }
-  slots_ = std::move(alive);
-  const std::vector<Chunk> old_chunks = std::move(chunks_);
-  chunks_.clear();
-  std::vector<std::uint32_t> listed;
-  for (std::uint32_t word = 0; word < words_.size(); ++word) {
-    listed.clear();
-    for (std::uint32_t i = words_[word].head; i != kNone; i = old_chunks[i].next) {
-      const auto& slots = old_chunks[i].slots;
-      for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot) {
-        if (*slot != kNone && new_slot[*slot] != kNone) listed.push_back(new_slot[*slot]);
+  explicit Words(const Features& wanted) : present_(std::make_unique<Bits>()) {
+    for (const Descriptor& descriptor : wanted.descriptors) {
+      for (int table = 0; table < kTables; ++table) {
+        const std::uint32_t word = word_of(descriptor, table);
+        present_->set(word);
+        const auto [entry, is_new] =
+            index_.try_emplace(word, static_cast<std::uint32_t>(words_.size()));
+        if (is_new) words_.emplace_back();
+        ++words_[entry->second].wanted;
       }
     }
-    words_[word] = {};
-    for (auto slot = listed.rbegin(); slot != listed.rend(); ++slot) list(word, *slot);
   }
-}
 
-void KeyframeRetrieval::vote(const Word& word, std::vector<float>& votes) const {
-  if (word.count == 0) return;
-  const float all = static_cast<float>(slots_.size()) + 1;
-  const float weight = std::log(all / static_cast<float>(word.count)) / std::log(all);
-  for (std::uint32_t i = word.head; i != kNone; i = chunks_[i].next) {
-    for (const std::uint32_t slot : chunks_[i].slots) {
-      if (slot != kNone) votes[slot] += weight;
+  /// The number of a word, or kNobody.
+  std::uint32_t find(std::uint32_t word) const {
+    return present_->test(word) ? index_.at(word) : kNobody;
+  }
+  Word& operator[](std::uint32_t number) { return words_[number]; }
+
+ private:
+  using Bits = std::bitset<std::size_t{kTables} << kBits>;
+  std::unique_ptr<Bits> present_;
+  std::unordered_map<std::uint32_t, std::uint32_t> index_;
+  std::vector<Word> words_;
+};
+
+}  // namespace
+
+std::vector<SimilarPicture> rank_by_appearance(const Features& wanted,
+                                               std::span<const Features* const> pictures,
+                                               std::size_t max_results) {
+  Words words(wanted);
+  struct Share {
+    std::uint32_t picture, word;
+  };
+  std::vector<Share> shared;
+  for (std::uint32_t p = 0; p < pictures.size(); ++p) {
+    for (const Descriptor& descriptor : pictures[p]->descriptors) {
+      for (int table = 0; table < kTables; ++table) {
+        const std::uint32_t number = words.find(word_of(descriptor, table));
+        // A word counts once a picture, however many of its features have it.
+        if (number == kNobody || words[number].newest == p) continue;
+        words[number].newest = p;
+        ++words[number].pictures;
+        shared.push_back({p, number});
+      }
     }
   }
-}
-
-std::vector<KeyframeRetrieval::Candidate> KeyframeRetrieval::query(const Features& features,
-                                                                   std::size_t max_results) const {
-  std::vector<float> votes(slots_.size(), 0.0F);
-  for (const Descriptor& descriptor : features.descriptors) {
-    for (int table = 0; table < kTables; ++table) vote(words_[word_of(descriptor, table)], votes);
+  std::vector<float> votes(pictures.size(), 0.0F);
+  const auto all = static_cast<float>(pictures.size()) + 1;
+  for (const Share& share : shared) {
+    const Words::Word& word = words[share.word];
+    votes[share.picture] += static_cast<float>(word.wanted) *
+                            std::log(all / static_cast<float>(word.pictures)) / std::log(all);
   }
-  std::vector<Candidate> candidates;
-  const auto own = static_cast<float>(features.size());
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    if (!slots_[i].alive || votes[i] <= 0) continue;
-    const float most = kTables * std::sqrt(own * static_cast<float>(slots_[i].features));
-    candidates.push_back({slots_[i].id, votes[i] / most});
+  std::vector<SimilarPicture> ranked;
+  const auto own = static_cast<float>(wanted.size());
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    if (votes[p] <= 0) continue;
+    const float most = kTables * std::sqrt(own * static_cast<float>(pictures[p]->size()));
+    ranked.push_back({p, votes[p] / most});
   }
-  const std::size_t count = std::min(max_results, candidates.size());
-  std::partial_sort(candidates.begin(), candidates.begin() + count, candidates.end(),
-                    [](const Candidate& a, const Candidate& b) {
-                      return a.score != b.score ? a.score > b.score : a.id < b.id;
+  const std::size_t count = std::min(max_results, ranked.size());
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count),
+                    ranked.end(), [](const SimilarPicture& a, const SimilarPicture& b) {
+                      return a.score != b.score ? a.score > b.score : a.index < b.index;
                     });
-  candidates.resize(count);
-  return candidates;
-}
-
-std::size_t KeyframeRetrieval::memory() const {
-  return words_.capacity() * sizeof(Word) + chunks_.capacity() * sizeof(Chunk) +
-         slots_.capacity() * sizeof(Slot) + slot_of_.size() * 32;
+  ranked.resize(count);
+  return ranked;
 }
 
 }  // namespace cairn

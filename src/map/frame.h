@@ -54,6 +54,13 @@ struct Frame {
     return {features.keypoints[i].x, features.keypoints[i].y};
   }
   int octave(std::size_t i) const { return features.keypoints[i].octave; }
+  /// Calls visit(index) for the keypoints in a window; see KeypointGrid::for_each.
+  template <class Visit>
+  void for_each_near(const Eigen::Vector2f& center, float radius, int min_octave, int max_octave,
+                     Visit&& visit) const {
+    grid.for_each(features.keypoints, {center.x(), center.y()}, radius, min_octave, max_octave,
+                  visit);
+  }
 };
 
 /// Moves keypoints of a real lens to the ideal pinhole, through a table made once.

@@ -6,23 +6,29 @@
 
 #include <compare>
 #include <cstdint>
-#include <limits>
 
 namespace cairn {
 
 /// Names an element of a SlotMap. The generation tells an element from a later one in its slot.
-template <class Tag>
+/// With fewer bits than 32 for the slot the generation gets the rest of them, and comes round
+/// again.
+template <class Tag, int kSlotBits = 32>
 struct Id {
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kNone = std::uint32_t{0xffffffff} >> (32 - kSlotBits);
 
-  std::uint32_t slot = kNone;
-  std::uint32_t generation = 0;
+  std::uint32_t slot : kSlotBits = kNone;
+  std::uint32_t generation : (kSlotBits < 32 ? 32 - kSlotBits : 32) = 0;
 
   bool valid() const { return slot != kNone; }
-  auto operator<=>(const Id&) const = default;
+  friend bool operator==(const Id& a, const Id& b) = default;
+  friend std::strong_ordering operator<=>(const Id& a, const Id& b) { return a.key() <=> b.key(); }
+  /// Slot, then generation.
+  std::uint64_t key() const { return std::uint64_t{slot} << 32 | generation; }
 };
 
 using KeyframeId = Id<struct KeyframeTag>;
-using PointId = Id<struct PointTag>;
+/// Of the millions that a map may hold, each is written down many times: so it is small. After 256
+/// births in one slot an id comes again, so one that is kept for long needs a second look.
+using PointId = Id<struct PointTag, 24>;
 
 }  // namespace cairn

@@ -42,7 +42,10 @@ void Map::add_observation(PointId point, KeyframeId keyframe, std::uint32_t keyp
   assert(!keyframes_[keyframe].points[keypoint].valid());
   assert(keypoint_of(point, keyframe) < 0);
   keyframes_[keyframe].points[keypoint] = point;
-  points_[point].observations.push_back({keyframe, keypoint});
+  std::vector<Observation>& observations = points_[point].observations;
+  // Doubling, as push_back does, would waste too much over thousands of points.
+  if (observations.size() == observations.capacity()) observations.reserve(observations.size() + 2);
+  observations.push_back({keyframe, keypoint});
 }
 
 void Map::erase_observation(PointId id, KeyframeId keyframe) {

@@ -18,6 +18,7 @@ class SlotMap {
  public:
   IdType insert(T value) {
     if (free_.empty()) {
+      assert(slots_.size() < IdType::kNone);
       slots_.emplace_back();
       free_.push_back(static_cast<std::uint32_t>(slots_.size() - 1));
     }
@@ -42,7 +43,7 @@ class SlotMap {
   const T* find(IdType id) const {
     if (id.slot >= slots_.size()) return nullptr;
     const Slot& slot = slots_[id.slot];
-    return slot.value && slot.generation == id.generation ? &*slot.value : nullptr;
+    return slot.value && IdType{id.slot, slot.generation} == id ? &*slot.value : nullptr;
   }
 
   T& operator[](IdType id) {

@@ -10,18 +10,18 @@ namespace {
 
 constexpr int kMinInliers = 30;
 constexpr double kFraction = 8;             // parts of a pixel that are kept
-constexpr std::size_t kMaxSightings = 256;  // 4 kB; more hardly make the pose any better
+constexpr std::size_t kMaxSightings = 256;  // 2 kB; more hardly make the pose any better
 
 // Keeps every n-th, so that all parts of the picture and all octaves stay.
-void thin_out(std::vector<BuriedKeyframe::Sighting>& sightings) {
-  if (sightings.size() > kMaxSightings) {
-    std::vector<BuriedKeyframe::Sighting> kept;
+template <class T>
+void thin_out(std::vector<T>& values) {
+  if (values.size() > kMaxSightings) {
     for (std::size_t i = 0; i < kMaxSightings; ++i) {
-      kept.push_back(sightings[i * sightings.size() / kMaxSightings]);
+      values[i] = values[i * values.size() / kMaxSightings];
     }
-    sightings = std::move(kept);
+    values.resize(kMaxSightings);
   }
-  sightings.shrink_to_fit();
+  values.shrink_to_fit();
 }
 
 }  // namespace
@@ -30,6 +30,7 @@ BuriedKeyframe bury_keyframe(Map& map, KeyframeId id) {
   const Keyframe& keyframe = map.keyframes()[id];
   BuriedKeyframe buried;
   buried.id = id;
+  buried.last_birth = map.keyframes()[map.newest()].sequence;
   buried.timestamp = keyframe.timestamp();
   buried.parent = map.covisible(id, 1).front().first;
   buried.T_pk = map.keyframes()[buried.parent].T_wc.inverse() * keyframe.T_wc;
@@ -40,10 +41,11 @@ BuriedKeyframe bury_keyframe(Map& map, KeyframeId id) {
     if (pixel.cwiseAbs().maxCoeff() > kLimit) continue;
     buried.sightings.push_back({keyframe.points[i],
                                 static_cast<std::int16_t>(std::lround(pixel.x())),
-                                static_cast<std::int16_t>(std::lround(pixel.y())),
-                                static_cast<std::uint8_t>(keyframe.frame->octave(i))});
+                                static_cast<std::int16_t>(std::lround(pixel.y()))});
+    buried.octaves.push_back(static_cast<std::uint8_t>(keyframe.frame->octave(i)));
   }
   thin_out(buried.sightings);
+  thin_out(buried.octaves);
   map.erase_keyframe(id);
   return buried;
 }
@@ -68,15 +70,16 @@ void resect_buried_keyframes(const Map& map, std::span<BuriedKeyframe> buried) {
     b.T_pk = T_wp.inverse() * T_wc;
     const SE3 T_cw = T_wc.inverse();
     observations.clear();
-    for (const BuriedKeyframe::Sighting& s : b.sightings) {
+    for (std::size_t k = 0; k < b.sightings.size(); ++k) {
+      const BuriedKeyframe::Sighting& s = b.sightings[k];
       const MapPoint* point = map.points().find(s.point);
-      if (point == nullptr) continue;
+      if (point == nullptr || point->born > b.last_birth) continue;
       const Eigen::Vector3d X = T_cw * point->position;
       if (!(X.z() > 0)) continue;
       // The pixel that the camera would have seen if the calibration were right.
       const Eigen::Vector2d bend = map.lens().project(pinhole, X) - pinhole.project(X);
       const Eigen::Vector2d pixel = Eigen::Vector2d(s.x, s.y) / kFraction;
-      observations.push_back({point->position, pixel - bend, map.view().sigma(s.octave)});
+      observations.push_back({point->position, pixel - bend, map.view().sigma(b.octaves[k])});
     }
     const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, T_wc, inlier);
     if (!summary.usable || summary.inliers < kMinInliers) continue;

@@ -13,15 +13,16 @@ namespace cairn {
 /// what it saw, so that it finds its place in the final map: frames are carried by it.
 struct BuriedKeyframe {
   struct Sighting {
-    PointId point;
+    PointId point;              ///< still the same one if born by `last_birth`
     std::int16_t x = 0, y = 0;  ///< eighths of a pixel
-    std::uint8_t octave = 0;
   };
   KeyframeId id, parent;
   SE3 T_pk;  ///< keyframe to parent
   double timestamp = 0;
+  std::uint32_t last_birth = 0;  ///< sequence number of the newest keyframe when it was buried
   std::vector<Sighting> sightings = {};
-  bool resected = false;  ///< T_pk comes from the final map's points
+  std::vector<std::uint8_t> octaves = {};  ///< one a sighting
+  bool resected = false;                   ///< T_pk comes from the final map's points
 };
 
 /// Takes a keyframe out of the map. Its parent is the keyframe that shares most points with it.

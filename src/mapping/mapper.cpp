@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cairn/features/retrieval.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
 
@@ -13,7 +14,6 @@ namespace {
 constexpr int kMinInitialPoints = 50;
 constexpr double kMinFoundRatio = 0.25;  // of the frames that should see a point
 constexpr std::uint32_t kProbation = 3;  // keyframes
-constexpr std::size_t kYouth = 10;       // keyframes
 
 }  // namespace
 
@@ -41,9 +41,7 @@ bool Mapper::initialize(const InitialPair& initial) {
     p.position /= depth;
     map_.update_geometry(id);
   });
-  young_ = {first};
   current_ = second;
-  list_survivors();
   publish(second);
   return true;
 }
@@ -63,7 +61,6 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
     map_.update_descriptor(p);
     map_.update_geometry(p);
   }
-  list_survivors();
   cull_recent_points();
   const std::vector<PointId> created = create_points(
       map_, current_, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
@@ -100,27 +97,18 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
 }
 
 std::vector<KeyframeId> Mapper::similar_keyframes(const Features& features, int count) const {
+  std::vector<KeyframeId> ids;
+  std::vector<const Features*> pictures;
+  map_.keyframes().for_each([&](KeyframeId id, const Keyframe& keyframe) {
+    ids.push_back(id);
+    pictures.push_back(&keyframe.frame->features);
+  });
   std::vector<KeyframeId> result;
-  for (const auto& candidate : retrieval_.query(features, count)) {
-    result.push_back(listed_.at(candidate.id));
-  }
-  for (auto id = young_.rbegin(); id != young_.rend(); ++id) {
-    if (map_.keyframes().contains(*id)) result.push_back(*id);
+  for (const SimilarPicture& similar :
+       rank_by_appearance(features, pictures, static_cast<std::size_t>(count))) {
+    result.push_back(ids[similar.index]);
   }
   return result;
-}
-
-// Most keyframes are culled soon: only those that outlive their youth go into the index.
-void Mapper::list_survivors() {
-  young_.push_back(current_);
-  while (young_.size() > kYouth) {
-    const KeyframeId id = young_.front();
-    young_.pop_front();
-    if (const Keyframe* keyframe = map_.keyframes().find(id)) {
-      retrieval_.add(id.slot, keyframe->frame->features);
-      listed_[id.slot] = id;
-    }
-  }
 }
 
 void Mapper::count_visible(std::span<const PointId> visible, std::span<const PointId> found) {
@@ -171,8 +159,6 @@ void Mapper::cull_keyframes() {
       redundant += others >= 3;
     }
     if (redundant <= options_.redundancy * seen) continue;
-    retrieval_.remove(id.slot);
-    listed_.erase(id.slot);
     buried_.push_back(bury_keyframe(map_, id));
   }
 }

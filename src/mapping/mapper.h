@@ -4,13 +4,10 @@
 // pictures: the system room says when to map, the tracker what was seen.
 
 #include <atomic>
-#include <deque>
-#include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "cairn/features/retrieval.h"
 #include "cairn/map/initial_pair.h"
 #include "cairn/map/map.h"
 #include "cairn/map/map_view.h"
@@ -56,21 +53,17 @@ class Mapper {
   /// The newest snapshot.
   const std::shared_ptr<const MapView>& view() const { return view_; }
   const Map& map() const { return map_; }
-  /// Keyframes that may show the same place: the `count` most alike, then the newest ones.
+  /// Keyframes that may show the same place: the `count` most alike, best first.
   std::vector<KeyframeId> similar_keyframes(const Features& features, int count) const;
   const std::vector<BuriedKeyframe>& buried() const { return buried_; }
 
  private:
   void publish(KeyframeId reference);
-  void list_survivors();
   void cull_recent_points();
   void cull_keyframes();
 
   MappingOptions options_;
   Map map_;
-  KeyframeRetrieval retrieval_;
-  std::map<KeyframeRetrieval::Id, KeyframeId> listed_;  // what the retrieval knows by slots
-  std::deque<KeyframeId> young_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
   KeyframeId current_;

@@ -15,9 +15,8 @@ constexpr int kSecondNeighbours = 5;
 int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, const Visibility& v,
                   double radius) {
   BestMatch best;
-  frame.grid.for_each({static_cast<float>(v.pixel.x()), static_cast<float>(v.pixel.y())},
-                      static_cast<float>(radius * view.scale(v.octave)), v.octave - 1, v.octave + 1,
-                      [&](std::uint32_t i) {
+  frame.for_each_near(v.pixel.cast<float>(), static_cast<float>(radius * view.scale(v.octave)),
+                      v.octave - 1, v.octave + 1, [&](std::uint32_t i) {
                         const double sigma = view.sigma(frame.octave(i));
                         if ((frame.pixel(i) - v.pixel).squaredNorm() > kGate * sigma * sigma)
                           return;

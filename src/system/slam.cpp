@@ -15,7 +15,10 @@ namespace cairn {
 namespace {
 
 constexpr double kYoungMap = 4.0;  // seconds: a map lost so early is not worth going back to
-constexpr int kRestartAfter = 8;   // lost frames, before a young map is given up
+// What so many frames between two keyframes saw is all that the mapper needs to hear; a camera that
+// stands still sees the same for ever.
+constexpr int kSightingFrames = 30;
+constexpr int kRestartAfter = 8;  // lost frames, before a young map is given up
 
 // A thousand keypoints for each 640 pixels of width, where the user left the number open.
 Options resolved(Options options, const Camera& camera) {
@@ -67,6 +70,7 @@ struct Slam::Implementation {
   std::optional<tbb::global_control> threads;
   std::unique_ptr<MappingSchedule> mapping;  // once there is a map
   MappingSchedule::Sighting sighting;
+  int frames_since_keyframe = 0;
   FrameLog log;
   bool lost = false;
   int lost_frames = 0;
@@ -81,6 +85,10 @@ Slam::Slam(const Camera& camera, const Options& options)
 Slam::~Slam() = default;
 
 const std::vector<FrameRecord>& Slam::frames() const { return implementation_->records; }
+
+std::shared_ptr<const MapView> Slam::snapshot() const {
+  return implementation_->mapping ? implementation_->mapping->view() : nullptr;
+}
 
 void Slam::drop(double timestamp) {
   implementation_->records.push_back({.timestamp = timestamp, .state = FrameState::kDropped});
@@ -124,7 +132,7 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
   });
   frame->features = extracted;  // a copy that holds no more memory than it needs
   frame->colours.shrink_to_fit();
-  frame->grid.build(frame->features);
+  frame->grid.build(frame->features.keypoints);
   return frame;
 }
 
@@ -188,6 +196,7 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
 bool Slam::Implementation::track(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
   const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record);
   if (tracked == nullptr) return false;
+  if (++frames_since_keyframe > kSightingFrames) return true;
   sighting.visible.insert(sighting.visible.end(), tracked->visible.begin(), tracked->visible.end());
   for (const PointId p : tracked->points) {
     if (p.valid()) sighting.found.push_back(p);
@@ -201,6 +210,7 @@ void Slam::Implementation::hand_over_keyframe() {
   tracker.keyframe_made();
   mapping->insert(std::move(candidate), std::move(sighting));
   sighting = {};
+  frames_since_keyframe = 0;
 }
 
 void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
@@ -239,6 +249,7 @@ void Slam::Implementation::restart() {
   initializer.reset();
   log = {};
   sighting = {};
+  frames_since_keyframe = 0;
   lost = false;
   ++restarts;
 }

@@ -12,6 +12,7 @@
 #include "cairn/geometry/camera.h"
 #include "cairn/geometry/trajectory.h"
 #include "cairn/map/frame_record.h"
+#include "cairn/map/map_view.h"
 #include "cairn/system/options.h"
 
 namespace cairn {
@@ -66,6 +67,9 @@ class Slam {
   /// Waits for the mapper, runs the full adjustment, and hands out everything.
   SlamResult finish();
 
+  /// The newest state of the local map, for viewers; immutable, so keep it as long as you like.
+  /// Null while there is no map.
+  std::shared_ptr<const MapView> snapshot() const;
   /// Rows of frames.csv so far.
   const std::vector<FrameRecord>& frames() const;
 

@@ -28,12 +28,11 @@ int Initializer::follow(const Frame& frame) {
     const int octave = reference_->octave(i);
     if (octave > kMaxOctave) continue;
     BestMatch best;
-    frame.grid.for_each(
-        {followed_[i].x(), followed_[i].y()}, static_cast<float>(options_.search_radius), octave,
-        octave, [&](std::uint32_t j) {
-          best.offer(j,
-                     hamming(reference_->features.descriptors[i], frame.features.descriptors[j]));
-        });
+    frame.for_each_near(followed_[i], static_cast<float>(options_.search_radius), octave, octave,
+                        [&](std::uint32_t j) {
+                          best.offer(j, hamming(reference_->features.descriptors[i],
+                                                frame.features.descriptors[j]));
+                        });
     if (!best.accepted(kMaxDistance, kRatio) || best.distance >= owner_distance[best.index])
       continue;
     if (owner[best.index] >= 0) match_[owner[best.index]] = -1;

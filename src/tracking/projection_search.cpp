@@ -21,21 +21,20 @@ int search_by_projection(const Frame& frame, std::span<const ExpectedPoint> expe
   for (const ExpectedPoint& e : expected) {
     int best = 257, second = 257, best_octave = -1, second_octave = -1;
     std::uint32_t best_keypoint = 0;
-    frame.grid.for_each(
-        {e.pixel.x(), e.pixel.y()}, e.radius, e.min_octave, e.max_octave, [&](std::uint32_t i) {
-          if (point_of_keypoint[i] != kNoPoint) return;
-          const int distance = hamming(*e.descriptor, frame.features.descriptors[i]);
-          if (distance < best) {
-            second = best;
-            second_octave = best_octave;
-            best = distance;
-            best_octave = frame.octave(i);
-            best_keypoint = i;
-          } else if (distance < second) {
-            second = distance;
-            second_octave = frame.octave(i);
-          }
-        });
+    frame.for_each_near(e.pixel, e.radius, e.min_octave, e.max_octave, [&](std::uint32_t i) {
+      if (point_of_keypoint[i] != kNoPoint) return;
+      const int distance = hamming(*e.descriptor, frame.features.descriptors[i]);
+      if (distance < best) {
+        second = best;
+        second_octave = best_octave;
+        best = distance;
+        best_octave = frame.octave(i);
+        best_keypoint = i;
+      } else if (distance < second) {
+        second = distance;
+        second_octave = frame.octave(i);
+      }
+    });
     if (best > options.max_distance) continue;
     if (best_octave == second_octave && best > options.ratio * second) continue;
     Claim& claim = claims[best_keypoint];

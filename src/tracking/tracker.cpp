@@ -23,6 +23,9 @@ class Stopwatch {
 constexpr int kMinMatches = 20;     // of the motion model, before a wider search
 constexpr int kCautiousFrames = 3;  // after a (re)start, search wider
 constexpr double kFrontalCosine = 0.998;
+// A camera that has moved less than this from its reference keyframe sees nothing new.
+constexpr double kStillShare = 0.001;  // of the scene's median depth
+constexpr double kStillRadians = 0.001;
 
 }  // namespace
 
@@ -198,11 +201,13 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc) {
 }
 
 bool Tracker::wants_keyframe(bool mapper_idle) const {
+  const bool moved = last_.T_rc.translation().norm() > kStillShare * map_->median_depth ||
+                     Eigen::AngleAxisd(last_.T_rc.rotation()).angle() > kStillRadians;
   const bool long_ago = last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
   const bool weak = last_.inliers < options_.keyframe_ratio * map_->reference_tracked;
   const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
   if (last_.inliers < 15) return false;
-  return (mapper_idle && (weak || long_ago)) || very_weak;
+  return (mapper_idle && moved && (weak || long_ago)) || very_weak;
 }
 
 }  // namespace cairn

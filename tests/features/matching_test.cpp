@@ -21,19 +21,25 @@ std::vector<Descriptor> random_descriptors(int count, std::mt19937_64& engine) {
   return descriptors;
 }
 
-TEST(KeypointGrid, FindsExactlyThePointsOfTheWindowAndOctaves) {
+std::vector<std::uint32_t> in_window(const KeypointGrid& grid, const std::vector<Keypoint>& points,
+                                     cv::Point2f center, float radius, int low, int high) {
+  std::vector<std::uint32_t> found;
+  grid.for_each(points, center, radius, low, high, [&](std::uint32_t i) { found.push_back(i); });
+  return found;
+}
+
+TEST(KeypointGrid, FindsExactlyTheKeypointsOfTheWindowAndOctaves) {
   std::mt19937 engine(1);
   std::uniform_real_distribution<float> place(-30, 700);
   std::uniform_int_distribution<int> octave(0, 7);
-  std::vector<cv::Point2f> points;
-  std::vector<std::int32_t> octaves;
-  for (int i = 0; i < 1000; ++i) {
-    points.emplace_back(place(engine), place(engine));
-    octaves.push_back(octave(engine));
+  std::vector<Keypoint> points(1000);
+  for (Keypoint& point : points) {
+    point.x = place(engine);
+    point.y = place(engine);
+    point.octave = static_cast<std::int8_t>(octave(engine));
   }
   KeypointGrid grid;
-  grid.build(points, octaves);
-  std::vector<std::uint32_t> found;
+  grid.build(points);
   std::uniform_real_distribution<float> center_of(-200, 900), radius_of(0, 120);
   for (int trial = 0; trial < 300; ++trial) {
     const cv::Point2f center(center_of(engine), center_of(engine));
@@ -42,29 +48,26 @@ TEST(KeypointGrid, FindsExactlyThePointsOfTheWindowAndOctaves) {
     std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       if (std::abs(points[i].x - center.x) <= radius &&
-          std::abs(points[i].y - center.y) <= radius && octaves[i] >= low && octaves[i] <= high) {
+          std::abs(points[i].y - center.y) <= radius && points[i].octave >= low &&
+          points[i].octave <= high) {
         expected.push_back(i);
       }
     }
-    grid.query(center, radius, low, high, found);
-    EXPECT_THAT(found, UnorderedElementsAreArray(expected));
+    EXPECT_THAT(in_window(grid, points, center, radius, low, high),
+                UnorderedElementsAreArray(expected));
   }
 }
 
-TEST(KeypointGrid, TakesNoPointsAndFarPoints) {
+TEST(KeypointGrid, TakesNoKeypointsAndFarOnes) {
   KeypointGrid grid;
-  std::vector<std::uint32_t> found;
-  grid.query({10, 10}, 5, 0, 7, found);
-  EXPECT_TRUE(found.empty());
-  grid.build(std::span<const cv::Point2f>{});
-  grid.query({10, 10}, 5, 0, 7, found);
-  EXPECT_TRUE(found.empty());
-  const std::vector<cv::Point2f> points = {{1e7F, -1e7F}, {3, 4}, {3, 4}};
+  EXPECT_TRUE(in_window(grid, {}, {10, 10}, 5, 0, 7).empty());
+  grid.build({});
+  EXPECT_TRUE(in_window(grid, {}, {10, 10}, 5, 0, 7).empty());
+  const std::vector<Keypoint> points = {
+      {.x = 1e7F, .y = -1e7F}, {.x = 3, .y = 4}, {.x = 3, .y = 4}};
   grid.build(points);
-  grid.query({3, 4}, 0, 0, 7, found);
-  EXPECT_THAT(found, UnorderedElementsAreArray({1U, 2U}));
-  grid.query({1e9F, 1e9F}, 1, 0, 7, found);
-  EXPECT_TRUE(found.empty());
+  EXPECT_THAT(in_window(grid, points, {3, 4}, 0, 0, 7), UnorderedElementsAreArray({1U, 2U}));
+  EXPECT_TRUE(in_window(grid, points, {1e9F, 1e9F}, 1, 0, 7).empty());
 }
 
 TEST(BestMatch, IsTheNearestAndKnowsTheSecond) {

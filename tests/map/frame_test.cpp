@@ -21,7 +21,7 @@ Features random_features(int count, std::uint64_t seed) {
   Features features;
   for (int i = 0; i < count; ++i) {
     const double x = random.uniform(0, 639), y = random.uniform(0, 479);
-    features.keypoints.push_back({float(x), float(y), 0.5F, 1, i % 8});
+    features.keypoints.push_back({float(x), float(y), 0.5F, 1, std::int8_t(i % 8)});
     features.descriptors.push_back({random.next(), 0, 0, static_cast<std::uint64_t>(i)});
   }
   return features;

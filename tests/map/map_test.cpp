@@ -23,7 +23,7 @@ std::shared_ptr<Frame> plain_frame(int count) {
     frame->features.keypoints.push_back({float(10 * i), 20, 0, 1, 0});
     frame->features.descriptors.push_back({static_cast<std::uint64_t>(i), 0, 0, 0});
   }
-  frame->grid.build(frame->features);
+  frame->grid.build(frame->features.keypoints);
   return frame;
 }
 

@@ -53,7 +53,7 @@ TEST_F(MapViewTest, FindsPointsAndPosesById) {
   }
   EXPECT_EQ(view->index_of(PointId{1000000, 0}), MapView::kNone);
   const PointId first = view->points.front().id;
-  EXPECT_EQ(view->index_of(PointId{first.slot, first.generation + 1}), MapView::kNone);
+  EXPECT_EQ(view->index_of(PointId{first.slot, first.generation + 1U}), MapView::kNone);
   for (int k : {0, 1, 2}) {
     const auto T_wc = view->pose_of(keyframes[k]);
     ASSERT_TRUE(T_wc.has_value());

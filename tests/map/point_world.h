@@ -69,7 +69,7 @@ class PointWorld {
       add(*frame, {x, y}, random_.below(8), 0, random_descriptor());
       sight.points.push_back(-1);
     }
-    frame->grid.build(frame->features);
+    frame->grid.build(frame->features.keypoints);
     sights_[frame.get()] = std::move(sight);
     frames_.push_back(frame);
     return frame;
@@ -123,8 +123,9 @@ class PointWorld {
   }
   static void add(Frame& frame, const Eigen::Vector2d& pixel, int octave, float angle,
                   const Descriptor& descriptor) {
-    frame.features.keypoints.push_back(
-        {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), angle, 50, octave});
+    frame.features.keypoints.push_back({static_cast<float>(pixel.x()),
+                                        static_cast<float>(pixel.y()), angle, 50,
+                                        static_cast<std::int8_t>(octave)});
     frame.features.descriptors.push_back(descriptor);
     frame.colours.emplace_back(200, 100, 50);
   }

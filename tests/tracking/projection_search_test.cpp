@@ -12,7 +12,7 @@ Frame row_of_keypoints(int count) {
     frame.features.keypoints.push_back({float(20 * i + 20), 50, 0, 1, 1});
     frame.features.descriptors.push_back({(std::uint64_t{1} << i) - 1, 0, 0, 0});
   }
-  frame.grid.build(frame.features);
+  frame.grid.build(frame.features.keypoints);
   return frame;
 }
 

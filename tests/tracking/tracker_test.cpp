@@ -155,6 +155,16 @@ TEST_F(TrackerTest, KeepsItsPointsWhenTheMapLosesSome) {
   }
 }
 
+TEST_F(TrackerTest, WantsNoKeyframeWhileTheCameraStandsStillHoweverLong) {
+  const Frame picture = *frame;
+  for (int i = 1; i <= 90; ++i) {
+    auto again = std::make_shared<Frame>(picture);
+    again->timestamp = picture.timestamp + i * kFrame;
+    ASSERT_NE(track(again), nullptr) << i;
+    EXPECT_FALSE(tracker.wants_keyframe(true)) << i;
+  }
+}
+
 TEST_F(TrackerTest, WantsAKeyframeWhenItSeesLittleOfTheReferenceButNotOnceItHasOne) {
   ASSERT_NE(track(at(kStep)), nullptr);
   tracker.keyframe_made();
