@@ -91,9 +91,16 @@ void add_world_options(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE");
   ObjectMetricsOptions& objects = arguments.world_options.objects;
   PlaneMetricsOptions& planes = arguments.world_options.planes;
+  const CLI::Validator positive(
+      [](std::string& text) {
+        double number = 0;
+        const bool good = CLI::detail::lexical_cast(text, number) && number > 0;
+        return good ? std::string() : text + " is not more than 0";
+      },
+      "POSITIVE");
   const auto add = [&](const char* name, auto& value, const char* meaning) {
     command.add_option(name, value, meaning)
-        ->check(CLI::PositiveNumber)
+        ->check(positive)
         ->capture_default_str()
         ->group("With --world");
   };

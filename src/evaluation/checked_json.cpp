@@ -67,6 +67,7 @@ std::vector<double> CheckedJson::numbers(std::size_t count) const {
     refuse(std::to_string(items.size()) + " numbers in place of " + std::to_string(count));
   }
   std::vector<double> values;
+  values.reserve(count);
   for (const CheckedJson& item : items) values.push_back(item.number());
   return values;
 }
@@ -80,7 +81,7 @@ Eigen::Vector3d CheckedJson::unit_vector() const {
 }
 
 Eigen::Vector3d CheckedJson::lengths() const {
-  const Eigen::Vector3d v = vector3();
+  Eigen::Vector3d v = vector3();
   if (!(v.minCoeff() > 0)) refuse(value_.dump() + " are not three positive lengths");
   return v;
 }

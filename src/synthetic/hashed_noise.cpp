@@ -41,9 +41,8 @@ double HashedNoise::correlated(double time, double seconds) const {
   const std::int64_t now = tick(time);
   if (seconds <= 0) return normal(now);
   const double decay = std::exp(-kTick / seconds);
-  double sum = 0, squares = 0;
-  std::int64_t back = 0;
-  for (double weight = 1; weight > kForgotten; weight *= decay, ++back) {
+  double sum = 0, squares = 0, weight = 1;
+  for (std::int64_t back = 0; weight > kForgotten; ++back, weight *= decay) {
     sum += weight * normal(now - back);
     squares += weight * weight;
   }
