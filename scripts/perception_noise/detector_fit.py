@@ -131,28 +131,31 @@ def logit(p):
 
 
 def fit_scores(tracks, slopes):
-    """What is left of the scores' logits after size and border, whose effects are known."""
-    series, offsets, gaps, scores = [], [], [], []
+    """What is left of the scores' logits after size and border, whose effects are known. A thing that
+    is smaller than it usually is here is less sure; mugs of 50 px are as sure as chairs of 110 px."""
+    series, offsets, gaps, scores, usuals = [], [], [], [], []
     for track in tracks:
         z, gone = np.full(len(track), np.nan), np.full(len(track), np.nan)
+        usual = np.median([e[0][2] for e in track if e])
         for i, entry in enumerate(track):
             if entry is None:
                 continue
             (u, v, side), best, _ = entry
             score = best[5] if best is not None else NOT_FOUND
             beyond = max(0, side / 2 - u, u + side / 2 - WIDTH) + max(0, side / 2 - v, v + side / 2 - HEIGHT)
-            z[i] = logit(min(0.99, score)) - slopes['per_log_size'] * np.log(side / 100)
+            z[i] = logit(min(0.99, score)) - slopes['per_log_size'] * min(0, np.log(side / usual))
             if beyond > 0:
                 z[i] -= slopes['per_hidden'] * beyond / side + slopes['truncated']
             gone[i] = float(score < THRESHOLD)
             scores.append(score)
         if np.isfinite(z).sum() > 30:
             offsets.append(np.nanmean(z))
+            usuals.append(float(usual))
             series.append(z - offsets[-1])
             gaps.append(gone)
     lasting, seconds, flicker = lasting_and_flicker(series)
     missed, miss_seconds, stay = seconds_of_a_switch(gaps)
-    return {'at_100_px': np.mean(offsets), 'per_thing': np.std(offsets, ddof=1), 'lasting': lasting,
+    return {'at_usual_size': np.mean(offsets), 'offsets': [tuple(offsets)], 'usual px': [tuple(usuals)], 'per_thing': np.std(offsets, ddof=1), 'lasting': lasting,
             'seconds': seconds, 'flicker': flicker, 'things': len(offsets), 'looks': len(scores),
             'share below 0.05': np.mean(np.array(scores) < 0.05), 'missed': missed,
             'missed after missed': stay}

@@ -4,15 +4,11 @@ namespace cairn {
 
 PerceptionNoise PerceptionNoise::none() {
   PerceptionNoise noise;
-  noise.scores = {.threshold = 0,
-                  .at_100_px = 1000,  // its logistic is 1
-                  .per_log_size = 0,
-                  .per_hidden = 0,
-                  .truncated = 0,
-                  .per_thing = 0,
-                  .lasting = 0,
-                  .seconds = 0,
-                  .flicker = 0};
+  PerceptionNoise::Scores& scores = noise.scores;
+  scores.threshold = 0;
+  scores.at_usual_size = 1000;  // its logistic is 1
+  scores.per_log_size = scores.per_hidden = scores.truncated = 0;
+  scores.per_thing = scores.lasting = scores.seconds = scores.flicker = 0;
   noise.boxes = {.lasting = 0,
                  .seconds = 0,
                  .flicker = 0,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,16 +12,20 @@ namespace cairn {
 /// correlated over time as exp(−|Δt| / seconds). Amounts are standard deviations unless said
 /// otherwise.
 struct PerceptionNoise {
-  /// How sure a detector is of a thing: score = logistic(z), with z = at_100_px + per_log_size ·
-  /// ln(√(box area) / 100 px) + per_hidden · (1 − visible share) + truncated [if cut] + what is
-  /// peculiar to the thing + what comes and goes + what changes from picture to picture. A thing
-  /// whose score is below the threshold is missed. Pixels are those of a picture 640 wide.
+  /// How sure a detector is of a thing: score = logistic(z), with z = at_usual_size + per_log_size
+  /// · min(0, ln(√(box area) / usual size)) + per_hidden · (1 − visible share) + truncated [if cut]
+  /// + what is peculiar to the thing + what comes and goes + what changes from picture to picture.
+  /// A thing whose score is below the threshold is missed. Pixels are those of a picture 640 wide.
   struct Scores {
     double threshold = 0.3;
-    double at_100_px = -0.12, per_log_size = 1.16, per_hidden = -2.06, truncated = 0.22;
-    double per_thing = 0.85;
-    double lasting = 0.55, seconds = 0.82;
-    double flicker = 0.27;
+    double at_usual_size = -0.13, per_log_size = 1.16, per_hidden = -2.06, truncated = 0.22;
+    double per_thing = 0.51;
+    double lasting = 0.51, seconds = 0.72;
+    double flicker = 0.28;
+    /// Of a class, pixels: detectors know that mugs are small and chairs are not.
+    std::map<std::string, double> usual_px = {
+        {"cup", 48}, {"chair", 110}, {"tv", 117}, {"couch", 150}, {"dining table", 200}};
+    double usual_px_else = 60;
   } scores;
 
   /// Edges of boxes, each on its own, as shares of the box's width or height.

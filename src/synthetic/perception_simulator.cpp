@@ -131,7 +131,9 @@ double PerceptionSimulator::confidence(const Picture& picture, const ObjectView&
   // Pictures of any size are looked at through networks of one input size.
   const double pixels = size_of(box) * 640 / picture.size.width;
   const auto thing = std::uint64_t(view.thing);
-  return n.at_100_px + n.per_log_size * std::log(std::max(1.0, pixels) / 100) +
+  const auto known = n.usual_px.find(classes_[view.thing]);
+  const double usual = known == n.usual_px.end() ? n.usual_px_else : known->second;
+  return n.at_usual_size + n.per_log_size * std::min(0.0, std::log(std::max(1.0, pixels) / usual)) +
          n.per_hidden * (1 - view.visible) + (view.truncated ? n.truncated : 0) +
          n.per_thing * source_.of({kThing, thing}).normal() +
          n.lasting * source_.of({kLasting, thing}).correlated(picture.time, n.seconds) +
@@ -150,7 +152,7 @@ Box2 PerceptionSimulator::noisy_box(const Picture& picture, const ObjectView& vi
   const std::array<double, 4> border = {-0.5, -0.5, picture.size.width - 0.5,
                                         picture.size.height - 0.5};
   const double floor = n.floor_px * picture.size.width / 640;
-  const double quality = std::exp(-n.per_score * (z - noise_.scores.at_100_px));
+  const double quality = std::exp(-n.per_score * (z - noise_.scores.at_usual_size));
   for (std::uint64_t i = 0; i < 4; ++i) {
     const auto thing = std::uint64_t(view.thing);
     const bool cut = std::abs(edges[i] - border[i]) < 1;

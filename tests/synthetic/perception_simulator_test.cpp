@@ -176,19 +176,19 @@ TEST(PerceptionSimulator, MissesThingsThatAreSmallOrHiddenMoreOften) {
   PerceptionPicture picture;
   picture.add("cup", {0, 10, 100, 100})
       .add("cup", {150, 0, 50, 50})
-      .add("cup", {300, 0, 100, 100}, 0.5);
+      .add("cup", {300, 0, 100, 100}, 0.5)
+      .add("cup", {420, 100, 200, 200});
   PerceptionNoise noise = PerceptionNoise::none();
-  noise.scores = {.threshold = 0.5,
-                  .at_100_px = 0.5,
-                  .per_log_size = 1,
-                  .per_hidden = -2,
-                  .truncated = 0,
-                  .per_thing = 0,
-                  .lasting = 0.8,
-                  .seconds = 1,
-                  .flicker = 0.6};
+  noise.scores.threshold = 0.5;
+  noise.scores.at_usual_size = 0.5;
+  noise.scores.per_log_size = 1;
+  noise.scores.per_hidden = -2;
+  noise.scores.lasting = 0.8;
+  noise.scores.seconds = 1;
+  noise.scores.flicker = 0.6;
+  noise.scores.usual_px = {{"cup", 100}};
   const auto simulator = picture.simulator(noise);
-  std::array<int, 3> seen{};
+  std::array<int, 4> seen{};
   for (int i = 0; i < 4000; ++i) {
     for (const DetectedObject& object :
          simulator.detect(picture.truth(), apart(i), false).objects) {
@@ -200,6 +200,7 @@ TEST(PerceptionSimulator, MissesThingsThatAreSmallOrHiddenMoreOften) {
   EXPECT_NEAR(seen[0] / 4000.0, share(0.5), 0.025);
   EXPECT_NEAR(seen[1] / 4000.0, share(0.5 - std::log(2)), 0.025);
   EXPECT_NEAR(seen[2] / 4000.0, share(0.5 - 1), 0.025);
+  EXPECT_NEAR(seen[3] / 4000.0, share(0.5), 0.025);  // larger than usual is no surer
 }
 
 TEST(PerceptionSimulator, MissesWhatItJustMissed) {
@@ -207,7 +208,7 @@ TEST(PerceptionSimulator, MissesWhatItJustMissed) {
   for (int i = 0; i < 6; ++i) picture.add("cup", {100 * i + 10, 100, 80, 80});
   PerceptionNoise noise = PerceptionNoise::none();
   noise.scores.threshold = 0.5;
-  noise.scores.at_100_px = 0.8;
+  noise.scores.at_usual_size = 0.8;
   noise.scores.lasting = 1;
   noise.scores.seconds = 1;
   const auto simulator = picture.simulator(noise);
