@@ -41,8 +41,9 @@ double HashedNoise::correlated(double time, double seconds) const {
   const std::int64_t now = tick(time);
   if (seconds <= 0) return normal(now);
   const double decay = std::exp(-kTick / seconds);
+  const auto remembered = std::int64_t(std::log(kForgotten) / std::log(decay)) + 1;
   double sum = 0, squares = 0, weight = 1;
-  for (std::int64_t back = 0; weight > kForgotten; ++back, weight *= decay) {
+  for (std::int64_t back = 0; back < remembered; ++back, weight *= decay) {
     sum += weight * normal(now - back);
     squares += weight * weight;
   }
