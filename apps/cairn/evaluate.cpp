@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cairn/datasets/groundtruth.h"
+#include "cairn/evaluation/world_report.h"
 #include "cairn/geometry/error.h"
 #include "cairn/output/frames_csv.h"
 #include "commands.h"
@@ -16,17 +18,22 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string run, groundtruth, align = "sim3";
+  std::string run, groundtruth, world, align = "sim3";
   EvaluationOptions options;
+  WorldEvaluationOptions world_options;
   bool json = false;
 };
 
-// The ground truth that the run knew of.
-std::string remembered_groundtruth(const fs::path& run) {
+// The ground truth that the user names, or else the run knew of, or else is that of the world.
+std::string find_groundtruth(const Arguments& arguments) {
+  if (!arguments.groundtruth.empty()) return arguments.groundtruth;
+  const fs::path run = arguments.run;
   std::ifstream file(run / "summary.json");
   const auto summary = nlohmann::json::parse(file, nullptr, false);
   const auto value = summary.is_object() ? summary.value("groundtruth", nlohmann::json()) : nullptr;
   if (value.is_string()) return value.get<std::string>();
+  const fs::path beside_world = fs::path(arguments.world).parent_path() / "groundtruth.txt";
+  if (!arguments.world.empty() && fs::exists(beside_world)) return beside_world.string();
   throw Error(Error::Kind::kUsage,
               run.string() + ": this run knows of no ground truth; give --groundtruth FILE");
 }
@@ -50,17 +57,62 @@ int evaluate_run(const Arguments& arguments) {
     throw Error(Error::Kind::kUsage,
                 run.string() + ": a trajectory alone needs --groundtruth FILE");
   }
-  const std::string truth =
-      arguments.groundtruth.empty() ? remembered_groundtruth(run) : arguments.groundtruth;
+  if (!folder && !arguments.world.empty()) {
+    throw Error(Error::Kind::kUsage, run.string() +
+                                         ": --world judges the objects and planes of a run; give "
+                                         "the folder that `cairn run` wrote");
+  }
+  const std::string truth = find_groundtruth(arguments);
   const Trajectory estimate = read_groundtruth(folder ? run / "trajectory.txt" : run, "tum");
   const auto times = folder ? frame_times(run) : std::vector<double>();
   const EvaluationReport report = evaluate(read_groundtruth(truth), estimate, options, times);
+  std::optional<WorldReport> world;
+  if (!arguments.world.empty()) {
+    WorldEvaluationOptions world_options = arguments.world_options;
+    world_options.planes.min_visible_frames = world_options.objects.min_visible_frames;
+    world = evaluate_world(arguments.world, run, report.alignment, world_options);
+  }
   if (arguments.json) {
-    std::printf("%s\n", to_json(report).dump(2).c_str());
+    nlohmann::json json = to_json(report);
+    if (world) json.update(to_json(*world));
+    std::printf("%s\n", json.dump(2).c_str());
   } else {
     std::printf("%s against %s\n%s", run.c_str(), truth.c_str(), to_table(report).c_str());
+    if (world) std::printf("%s", to_table(*world).c_str());
   }
   return kDone;
+}
+
+void add_world_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option(
+          "--world", arguments.world,
+          "true objects and planes (world.json of `cairn synth`), to judge those of the run")
+      ->type_name("FILE");
+  ObjectMetricsOptions& objects = arguments.world_options.objects;
+  PlaneMetricsOptions& planes = arguments.world_options.planes;
+  const CLI::Validator positive(
+      [](std::string& text) {
+        double number = 0;
+        const bool good = CLI::detail::lexical_cast(text, number) && number > 0;
+        return good ? std::string() : text + " is not more than 0";
+      },
+      "POSITIVE");
+  const auto add = [&](const char* name, auto& value, const char* meaning) {
+    command.add_option(name, value, meaning)
+        ->check(positive)
+        ->capture_default_str()
+        ->group("With --world");
+  };
+  add("--min-visible-frames", objects.min_visible_frames,
+      "what is well seen in fewer frames cannot be missed");
+  add("--object-distance", objects.max_centre_distance,
+      "metres between the centres of a found and a true object, or its longest semi-axis");
+  add("--plane-angle", planes.max_angle_deg, "degrees between a found plane and a true one");
+  add("--plane-offset", planes.max_offset,
+      "metres from the middle of a found plane to the true one");
+  add("--plane-outside", planes.max_outside,
+      "metres by which that middle may lie outside of the true outline");
 }
 
 }  // namespace
@@ -68,7 +120,8 @@ int evaluate_run(const Arguments& arguments) {
 Action add_evaluate(CLI::App& program) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand(
-      "evaluate", "Says how far a run is from ground truth: ATE, RPE, coverage, scale");
+      "evaluate",
+      "Says how far a run is from ground truth: ATE, RPE, coverage, scale, objects, planes");
   command
       ->add_option("run", arguments->run, "the folder that `cairn run` wrote, or a TUM trajectory")
       ->required()
@@ -87,6 +140,7 @@ Action add_evaluate(CLI::App& program) {
   command
       ->add_option("--offset", arguments->options.offset, "seconds, added to the run's timestamps")
       ->capture_default_str();
+  add_world_options(*command, *arguments);
   command->add_flag("--json", arguments->json, "one JSON object in place of the table");
   return [arguments] { return evaluate_run(*arguments); };
 }

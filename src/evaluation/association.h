@@ -1,8 +1,8 @@
 #pragma once
 
 // The evaluation room: how far an estimate is from the truth. Association in time, alignment, ATE,
-// RPE, coverage, scale. It knows trajectories; it must not know how they came about or where they
-// are stored.
+// RPE, coverage, scale; objects and planes against those of a known world, whose files it reads. It
+// must not know how estimates came about.
 
 #include <cstddef>
 #include <span>

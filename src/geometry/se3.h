@@ -1,7 +1,7 @@
 #pragma once
 
-// The geometry room: transforms, cameras, two-view geometry, resection, triangulation. Pure
-// functions of numbers; it knows no pictures, no maps, no files.
+// The geometry room: transforms, cameras, two-view geometry, resection, triangulation, ellipsoids,
+// assignment. Pure functions of numbers; it knows no pictures, no maps, no files.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

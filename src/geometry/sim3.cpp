@@ -1,6 +1,5 @@
 #include "cairn/geometry/sim3.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
@@ -34,13 +33,6 @@ Matrix3d translation_jacobian(const Vector3d& omega, double sigma) {
   return a * Matrix3d::Identity() + b * W + c * W * W;
 }
 
-// The second largest standard deviation over the largest: 0 for points on a line.
-double flatness(const Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
-  const Vector3d v = eigen.eigenvalues().cwiseMax(0);
-  return v[2] > 0 ? std::sqrt(v[1] / v[2]) : 0;
-}
-
 }  // namespace
 
 Eigen::Matrix4d Sim3::matrix() const {
@@ -69,7 +61,7 @@ Vector7d Sim3::log() const {
 }
 
 SimilarityFit align_umeyama(std::span<const Vector3d> from, std::span<const Vector3d> to,
-                            bool with_scale) {
+                            bool with_scale, double min_flatness) {
   SimilarityFit result;
   const auto refuse = [&](const std::string& why) {
     result.refusal = why;
@@ -88,29 +80,29 @@ SimilarityFit align_umeyama(std::span<const Vector3d> from, std::span<const Vect
     mean_from += from[i] / n;
     mean_to += to[i] / n;
   }
-  Matrix3d cross = Matrix3d::Zero(), cov_from = Matrix3d::Zero(), cov_to = Matrix3d::Zero();
+  Matrix3d cross = Matrix3d::Zero();
+  double variance_from = 0, variance_to = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vector3d a = from[i] - mean_from, b = to[i] - mean_to;
     cross += b * a.transpose() / n;
-    cov_from += a * a.transpose() / n;
-    cov_to += b * b.transpose() / n;
+    variance_from += a.squaredNorm() / n;
+    variance_to += b.squaredNorm() / n;
   }
-  if (!cross.allFinite() || !cov_from.allFinite() || !cov_to.allFinite()) {
+  if (!cross.allFinite() || !std::isfinite(variance_from + variance_to)) {
     return refuse("a coordinate of the points to align is not finite");
   }
-  const double size_from = std::sqrt(cov_from.trace()), size_to = std::sqrt(cov_to.trace());
-  if (!(size_from > 1e-12 * (1 + mean_from.norm())) || !(size_to > 1e-12 * (1 + mean_to.norm()))) {
+  if (!(std::sqrt(variance_from) > 1e-12 * (1 + mean_from.norm())) ||
+      !(std::sqrt(variance_to) > 1e-12 * (1 + mean_to.norm()))) {
     return refuse("the points to align lie in one place");
   }
-  if (flatness(cov_from) < 1e-6 || flatness(cov_to) < 1e-6) {
+  const Eigen::JacobiSVD<Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (!(svd.singularValues()[1] > min_flatness * svd.singularValues()[0])) {
     return refuse("the points to align lie on one line, so their rotation is not defined");
   }
-
-  const Eigen::JacobiSVD<Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vector3d sign(1, 1, 1);
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign[2] = -1;
   const Matrix3d R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  const double scale = with_scale ? svd.singularValues().dot(sign) / cov_from.trace() : 1.0;
+  const double scale = with_scale ? svd.singularValues().dot(sign) / variance_from : 1.0;
   if (!(scale > 0)) return refuse("the two sets of points have no similar shape");
   result.transform = Sim3(scale, R, mean_to - scale * R * mean_from);
   double squares = 0;

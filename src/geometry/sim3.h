@@ -62,8 +62,10 @@ struct SimilarityFit {
 /// sum of squared distances; from[i] belongs to to[i]. Umeyama, "Least-squares estimation of
 /// transformation parameters between two point patterns" (PAMI 1991). Refuses fewer than three
 /// points, points in one place or on one line (their rotation is not defined), numbers that are not
-/// finite.
+/// finite. On one line is where the second singular value of the cross-covariance is less than
+/// `min_flatness` of the first one.
 SimilarityFit align_umeyama(std::span<const Eigen::Vector3d> from,
-                            std::span<const Eigen::Vector3d> to, bool with_scale);
+                            std::span<const Eigen::Vector3d> to, bool with_scale,
+                            double min_flatness = 1e-12);
 
 }  // namespace cairn

@@ -1,0 +1,130 @@
+#include "cairn/evaluation/plane_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cairn/evaluation/trajectory_error.h"
+#include "cairn/geometry/assignment.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kNoPair = 2;  // more than any pair that agrees costs
+
+// The centre of a planar polygon's area (that of its corners where it has none): triangles from the
+// first corner, weighted by their signed areas.
+Vector3d middle(std::span<const Vector3d> outline) {
+  Vector3d normal = Vector3d::Zero(), corners = Vector3d::Zero();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector3d a = outline[i] - outline[0];
+    normal += a.cross(outline[(i + 1) % outline.size()] - outline[0]);
+    corners += a / double(outline.size());
+  }
+  if (!(normal.norm() > 1e-12)) return outline[0] + corners;
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    const Vector3d a = outline[i] - outline[0], b = outline[i + 1] - outline[0];
+    sum += a.cross(b).dot(normal) * (a + b) / 3;
+  }
+  return outline[0] + sum / normal.squaredNorm();
+}
+
+double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
+  const Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return (a + t * ab - x).norm();
+}
+
+// How far a point of the polygon's plane is outside of the polygon; 0 inside. Inside is where the
+// corners wind around the point.
+double distance_outside(const Vector3d& x, std::span<const Vector3d> outline,
+                        const Vector3d& normal) {
+  double winding = 0, nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector3d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    winding += std::atan2((a - x).cross(b - x).dot(normal), (a - x).dot(b - x));
+    nearest = std::min(nearest, distance_to_segment(x, a, b));
+  }
+  return std::abs(winding) > M_PI ? 0 : nearest;
+}
+
+// angle and offset of a pair, agreeing or not.
+PlaneMatch compare(const TruePlane& truth, const FoundPlane& found) {
+  PlaneMatch match;
+  match.angle =
+      std::atan2(truth.normal.cross(found.normal).norm(), std::abs(truth.normal.dot(found.normal)));
+  match.offset = std::abs(truth.normal.dot(middle(found.outline)) + truth.d);
+  return match;
+}
+
+// Below kNoPair if the two agree.
+double pair_cost(const TruePlane& truth, const FoundPlane& found,
+                 const PlaneMetricsOptions& options) {
+  const PlaneMatch match = compare(truth, found);
+  const double angle = match.angle * 180 / M_PI / options.max_angle_deg;
+  const double offset = match.offset / options.max_offset;
+  if (!(angle < 1 && offset < 1)) return kNoPair;
+  const Vector3d x = middle(found.outline);
+  const Vector3d on_plane = x - (truth.normal.dot(x) + truth.d) * truth.normal;
+  const double outside = distance_outside(on_plane, truth.outline, truth.normal);
+  return outside > options.max_outside ? kNoPair : angle + offset;
+}
+
+void set_summary(std::span<const PlaneMatch> scored, PlaneMetrics& metrics) {
+  metrics.correct = scored.size();
+  const std::size_t found = metrics.correct + metrics.duplicated + metrics.false_planes;
+  const std::size_t there = metrics.correct + metrics.missed;
+  if (found > 0) metrics.precision = double(metrics.correct) / double(found);
+  if (there > 0) metrics.recall = double(metrics.correct) / double(there);
+  if (scored.empty()) return;
+  std::vector<double> angles, offsets;
+  for (const PlaneMatch& match : scored) {
+    angles.push_back(match.angle * 180 / M_PI);
+    offsets.push_back(match.offset);
+  }
+  metrics.angle_deg = statistics(angles).median;
+  metrics.offset = statistics(offsets).median;
+}
+
+}  // namespace
+
+PlaneMetrics plane_metrics(std::span<const TruePlane> truth, std::span<const FoundPlane> found,
+                           const PlaneMetricsOptions& options) {
+  Eigen::MatrixXd cost(truth.size(), found.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      cost(i, j) = pair_cost(truth[i], found[j], options);
+    }
+  }
+  const std::vector<int> found_of = assign(cost);
+  PlaneMetrics metrics;
+  std::vector<char> matched(found.size(), 0);
+  std::vector<PlaneMatch> scored;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const bool counts = truth[i].visible_frames >= options.min_visible_frames;
+    const int j = found_of[i];
+    if (j < 0 || cost(i, j) >= kNoPair) {
+      metrics.missed += counts;
+      continue;
+    }
+    matched[j] = 1;
+    PlaneMatch match = compare(truth[i], found[j]);
+    match.truth = i;
+    match.found = j;
+    metrics.matches.push_back(match);
+    if (counts) scored.push_back(match);
+  }
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    if (matched[j]) continue;
+    const bool agrees = !truth.empty() && cost.col(Eigen::Index(j)).minCoeff() < kNoPair;
+    ++(agrees ? metrics.duplicated : metrics.false_planes);
+  }
+  set_summary(scored, metrics);
+  return metrics;
+}
+
+}  // namespace cairn

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "cairn/geometry/ellipsoid.h"
+
+namespace cairn {
+
+/// Turned by which angle about its `axis` a thing looks the same.
+enum class TurnSymmetry { kNone, kHalfTurn, kQuarterTurn, kAnyTurn };
+
+/// A true object, in the world frame of groundtruth.txt.
+struct TrueObject {
+  int id = 0;
+  std::string class_name;
+  Ellipsoid ellipsoid;  ///< the smallest that encloses it
+  TurnSymmetry symmetry = TurnSymmetry::kNone;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, of the symmetry
+  int visible_frames = 0;                           ///< in which it is well seen
+};
+
+/// A true plane, `normal · x + d = 0`.
+struct TruePlane {
+  int id = 0;
+  std::string label;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double d = 0;
+  std::vector<Eigen::Vector3d> outline;  ///< corners of a polygon, at least three
+  /// In which it is well seen; where world.json says nothing, it counts as always seen.
+  int visible_frames = std::numeric_limits<int>::max();
+};
+
+/// What evaluation needs of world.json (docs/synthetic.md has the schema).
+struct WorldTruth {
+  std::vector<TrueObject> objects;
+  std::vector<TruePlane> planes;
+};
+
+/// Throws Error(kInput) where the file cannot be read or holds what cannot be.
+WorldTruth read_world(const std::filesystem::path& file);
+
+}  // namespace cairn

@@ -1,0 +1,143 @@
+#include "cairn/synthetic/recorded_perception.h"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "cairn/geometry/error.h"
+#include "cairn/synthetic/mask_rle.h"
+
+namespace cairn {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kLargestSide = 1 << 15;  // of a mask, pixels
+
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+
+json mask_json(const cv::Mat& mask) {
+  return {{"size", {mask.rows, mask.cols}}, {"counts", runs_to_text(encode_runs(mask))}};
+}
+
+json object_json(const DetectedObject& object) {
+  const auto pixel = [](double value) { return rounded(value, 1e3); };
+  const Box2& b = object.box;
+  json value = {{"box", {pixel(b.x0), pixel(b.y0), pixel(b.x1), pixel(b.y1)}},
+                {"class", object.class_name},
+                {"score", rounded(object.score, 1e5)}};
+  if (!object.mask.empty()) value["mask"] = mask_json(object.mask);
+  if (object.thing) value["thing"] = *object.thing;
+  return value;
+}
+
+json plane_json(const DetectedPlane& plane) {
+  const Eigen::Vector4d& p = plane.plane;
+  json value = {{"plane", {p[0], p[1], p[2], p[3]}},
+                {"label", plane.label},
+                {"score", rounded(plane.score, 1e5)}};
+  if (!plane.mask.empty()) value["mask"] = mask_json(plane.mask);
+  if (plane.truth) value["truth"] = *plane.truth;
+  return value;
+}
+
+// What is wrong with a line; parse_json_line adds where.
+[[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument(why); }
+
+double finite(const json& value) {
+  const double number = value.get<double>();
+  if (!std::isfinite(number)) refuse("a number is not finite");
+  return number;
+}
+
+std::vector<double> four_numbers(const json& value, const char* key) {
+  if (!value.is_array() || value.size() != 4) refuse(std::string(key) + " has not four numbers");
+  std::vector<double> numbers;
+  for (const json& item : value) numbers.push_back(finite(item));
+  return numbers;
+}
+
+double score_of(const json& value) {
+  const double score = finite(value.at("score"));
+  if (!(score >= 0 && score <= 1)) refuse("a score is not between 0 and 1");
+  return score;
+}
+
+std::optional<int> identity(const json& value, const char* key) {
+  return value.contains(key) ? std::optional<int>(value.at(key).get<int>()) : std::nullopt;
+}
+
+cv::Mat mask_of(const json& value) {
+  if (!value.contains("mask")) return {};
+  const json& mask = value.at("mask");
+  const cv::Size size(mask.at("size").at(1).get<int>(), mask.at("size").at(0).get<int>());
+  if (size.width <= 0 || size.height <= 0 || size.width > kLargestSide ||
+      size.height > kLargestSide) {
+    refuse("a mask has no possible size");
+  }
+  const json& counts = mask.at("counts");
+  return decode_runs(counts.is_string() ? runs_from_text(counts.get<std::string>())
+                                        : counts.get<std::vector<std::uint32_t>>(),
+                     size);
+}
+
+DetectedObject parse_object(const json& value) {
+  const auto b = four_numbers(value.at("box"), "a box");
+  if (!(b[0] < b[2] && b[1] < b[3])) refuse("a box has no area");
+  return {{b[0], b[1], b[2], b[3]},
+          value.at("class").get<std::string>(),
+          score_of(value),
+          mask_of(value),
+          identity(value, "thing")};
+}
+
+DetectedPlane parse_plane(const json& value) {
+  const auto p = four_numbers(value.at("plane"), "a plane");
+  const double length = Eigen::Vector3d(p.data()).norm();
+  if (!(length > 1e-9)) refuse("a plane has no normal");
+  return {Eigen::Vector4d(p.data()) / length, value.at("label").get<std::string>(), score_of(value),
+          mask_of(value), identity(value, "truth")};
+}
+
+}  // namespace
+
+std::string to_json_line(const DetectedFrame& frame) {
+  json objects = json::array(), planes = json::array();
+  for (const DetectedObject& object : frame.objects) objects.push_back(object_json(object));
+  for (const DetectedPlane& plane : frame.planes) planes.push_back(plane_json(plane));
+  return json{{"timestamp", frame.timestamp}, {"objects", objects}, {"planes", planes}}.dump();
+}
+
+DetectedFrame parse_json_line(const std::string& line, const std::string& where) {
+  try {
+    const json value = json::parse(line);
+    DetectedFrame frame;
+    frame.timestamp = finite(value.at("timestamp"));
+    for (const json& object : value.at("objects")) frame.objects.push_back(parse_object(object));
+    for (const json& plane : value.at("planes")) frame.planes.push_back(parse_plane(plane));
+    return frame;
+  } catch (const json::exception& e) {
+    throw Error(Error::Kind::kInput, where + ": is no recorded detections (" + e.what() +
+                                         "); record them again or remove the line");
+  } catch (const std::invalid_argument& e) {
+    throw Error(Error::Kind::kInput,
+                where + ": " + e.what() + "; record the detections again or remove the line");
+  }
+}
+
+std::vector<DetectedFrame> read_recorded_perception(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw Error(Error::Kind::kInput, file.string() + ": cannot be read as recorded detections");
+  }
+  std::vector<DetectedFrame> frames;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    frames.push_back(parse_json_line(line, file.string() + ", line " + std::to_string(number)));
+  }
+  return frames;
+}
+
+}  // namespace cairn

@@ -1,0 +1,188 @@
+#include "cairn/synthetic/recorded_perception.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "cairn/geometry/error.h"
+#include "cairn/geometry/sampler.h"
+#include "cairn/synthetic/mask_rle.h"
+
+namespace cairn {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::countNonZero(a != b) == 0;
+}
+
+cv::Mat through_text(const cv::Mat& mask) {
+  return decode_runs(runs_from_text(runs_to_text(encode_runs(mask))), mask.size());
+}
+
+TEST(MaskRle, RunsDownTheColumnsAndBeginsOutside) {
+  cv::Mat mask = (cv::Mat_<std::uint8_t>(2, 3) << 0, 255, 0,  //
+                  255, 255, 0);
+  EXPECT_THAT(encode_runs(mask), ElementsAre(1, 3, 2));
+  mask.at<std::uint8_t>(0, 0) = 255;
+  EXPECT_THAT(encode_runs(mask), ElementsAre(0, 4, 2));
+}
+
+// Computed by hand from the description in the header.
+TEST(MaskRle, WritesTheTextOfCoco) {
+  EXPECT_EQ(runs_to_text({0, 4}), "04");
+  EXPECT_EQ(runs_to_text({31}), "o0");            // 31 has the sign bit: one more character
+  EXPECT_EQ(runs_to_text({5, 7, 2, 3}), "572L");  // 3 is written as 3 − 7
+  EXPECT_EQ(runs_to_text({1000}), "Xo0");         // 1000 = 31 · 32 + 8
+  EXPECT_THAT(runs_from_text("572L"), ElementsAre(5, 7, 2, 3));
+  EXPECT_THAT(runs_from_text("Xo0"), ElementsAre(1000));
+}
+
+TEST(MaskRle, GivesBackEveryMask) {
+  Sampler sampler(1);
+  for (int trial = 0; trial < 50; ++trial) {
+    cv::Mat mask(1 + sampler.below(40), 1 + sampler.below(60), CV_8U, cv::Scalar(0));
+    for (int i = sampler.below(6); i > 0; --i) {
+      const cv::Point a(sampler.below(mask.cols), sampler.below(mask.rows));
+      const cv::Point b(sampler.below(mask.cols), sampler.below(mask.rows));
+      mask(cv::Rect(a, b)) = trial % 3 ? 255 : 0;
+    }
+    if (trial % 3 == 0) {
+      for (auto& pixel : cv::Mat_<std::uint8_t>(mask)) pixel = sampler.below(2) ? 255 : 0;
+    }
+    EXPECT_TRUE(same(through_text(mask), mask));
+  }
+  const cv::Mat empty(480, 640, CV_8U, cv::Scalar(0)), full(480, 640, CV_8U, cv::Scalar(255));
+  EXPECT_TRUE(same(through_text(empty), empty));
+  EXPECT_TRUE(same(through_text(full), full));
+  EXPECT_THAT(encode_runs(empty), ElementsAre(480 * 640));
+  EXPECT_THAT(encode_runs(full), ElementsAre(0, 480 * 640));
+}
+
+TEST(MaskRle, RefusesRunsThatAreNoMask) {
+  EXPECT_THROW(decode_runs({3}, {2, 2}), std::invalid_argument);
+  EXPECT_THROW(decode_runs({3, 2}, {2, 2}), std::invalid_argument);
+  EXPECT_THROW(runs_from_text("o"), std::invalid_argument);     // breaks off
+  EXPECT_THROW(runs_from_text("\n"), std::invalid_argument);    // below the alphabet
+  EXPECT_THROW(runs_from_text("222A"), std::invalid_argument);  // a run of 2 − 15 pixels
+  EXPECT_THROW(runs_from_text(std::string(20, 'o')), std::invalid_argument);
+}
+
+DetectedFrame example() {
+  DetectedFrame frame;
+  frame.timestamp = 1.25;
+  cv::Mat mask(48, 64, CV_8U, cv::Scalar(0));
+  mask(cv::Rect(10, 5, 20, 30)) = 255;
+  frame.objects.push_back({{10.125, 20.5, 30.25, 40}, "wine glass", 0.75, {}, {}});
+  frame.objects.push_back({{9.5, 4.5, 29.5, 34.5}, "cup", 0.5, mask, 3});
+  frame.planes.push_back({{0, 0.6, -0.8, 1.23456789012345}, "table", 0.875, mask, 1});
+  return frame;
+}
+
+TEST(RecordedPerception, WritesTheDocumentedKeys) {
+  const std::string line = to_json_line(example());
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const nlohmann::json json = nlohmann::json::parse(line);
+  EXPECT_EQ(json.at("timestamp"), 1.25);
+  const nlohmann::json& glass = json.at("objects").at(0);
+  EXPECT_EQ(glass.at("box"), nlohmann::json({10.125, 20.5, 30.25, 40}));
+  EXPECT_EQ(glass.at("class"), "wine glass");
+  EXPECT_EQ(glass.at("score"), 0.75);
+  EXPECT_FALSE(glass.contains("mask"));
+  const nlohmann::json& plane = json.at("planes").at(0);
+  EXPECT_EQ(plane.at("plane").size(), 4u);
+  EXPECT_EQ(plane.at("label"), "table");
+  EXPECT_EQ(plane.at("mask").at("size"), nlohmann::json({48, 64}));
+  EXPECT_TRUE(plane.at("mask").at("counts").is_string());
+}
+
+TEST(RecordedPerception, ComesBackAsItWasWritten) {
+  const DetectedFrame frame = example();
+  const DetectedFrame back = parse_json_line(to_json_line(frame), "here");
+  EXPECT_EQ(back.timestamp, frame.timestamp);
+  ASSERT_EQ(back.objects.size(), 2u);
+  EXPECT_EQ(back.objects[0].box.x0, 10.125);
+  EXPECT_EQ(back.objects[0].box.y1, 40);
+  EXPECT_EQ(back.objects[0].class_name, "wine glass");
+  EXPECT_TRUE(back.objects[0].mask.empty());
+  EXPECT_FALSE(back.objects[0].thing.has_value());
+  EXPECT_EQ(back.objects[1].thing, 3);
+  EXPECT_TRUE(same(back.objects[1].mask, frame.objects[1].mask));
+  ASSERT_EQ(back.planes.size(), 1u);
+  EXPECT_LT((back.planes[0].plane - frame.planes[0].plane).norm(), 1e-15);
+  EXPECT_EQ(back.planes[0].truth, 1);
+  EXPECT_TRUE(same(back.planes[0].mask, frame.planes[0].mask));
+}
+
+TEST(RecordedPerception, ReadsMasksWithUncompressedRunsAndScalesPlanes) {
+  const DetectedFrame frame = parse_json_line(
+      R"({"timestamp": 0, "objects": [{"box": [0, 0, 2, 2], "class": "cup", "score": 1, "other": 7,
+          "mask": {"size": [2, 2], "counts": [1, 3]}}],
+          "planes": [{"plane": [0, 0, 2, -4], "label": "wall", "score": 0.5}]})",
+      "here");
+  EXPECT_EQ(cv::countNonZero(frame.objects[0].mask), 3);
+  EXPECT_EQ(frame.planes[0].plane, Eigen::Vector4d(0, 0, 1, -2));
+}
+
+TEST(RecordedPerception, SaysWhereAndWhyALineIsBad) {
+  const auto reason = [](const std::string& line) {
+    try {
+      parse_json_line(line, "perception.jsonl, line 3");
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), Error::Kind::kInput);
+      EXPECT_THAT(e.what(), HasSubstr("perception.jsonl, line 3: "));
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const auto object = [&](const std::string& text) {
+    return reason(R"({"timestamp": 0, "planes": [], "objects": [)" + text + "]}");
+  };
+  EXPECT_THAT(reason("{"), HasSubstr("is no recorded detections"));
+  EXPECT_THAT(reason("{}"), HasSubstr("timestamp"));
+  EXPECT_THAT(reason(R"({"timestamp": 0, "objects": []})"), HasSubstr("planes"));
+  EXPECT_THAT(object(R"({"box": [0, 0, 1], "class": "cup", "score": 1})"),
+              HasSubstr("four numbers"));
+  EXPECT_THAT(object(R"({"box": [5, 0, 1, 1], "class": "cup", "score": 1})"), HasSubstr("no area"));
+  EXPECT_THAT(object(R"({"box": [0, 0, 1, null], "class": "cup", "score": 1})"),
+              HasSubstr("number"));
+  EXPECT_THAT(object(R"({"box": [0, 0, 1, 1], "class": 5, "score": 1})"), HasSubstr("string"));
+  EXPECT_THAT(object(R"({"box": [0, 0, 1, 1], "class": "cup", "score": 1.5})"), HasSubstr("score"));
+  EXPECT_THAT(object(R"({"box": [0, 0, 1, 1], "class": "cup", "score": 1,
+                         "mask": {"size": [2, 2], "counts": [9]}})"),
+              HasSubstr("longer than the mask"));
+  EXPECT_THAT(object(R"({"box": [0, 0, 1, 1], "class": "cup", "score": 1,
+                         "mask": {"size": [2, 999999], "counts": "9"}})"),
+              HasSubstr("no possible size"));
+  EXPECT_THAT(reason(R"({"timestamp": 0, "objects": [], "planes": [
+                         {"plane": [0, 0, 0, 1], "label": "wall", "score": 1}]})"),
+              HasSubstr("no normal"));
+}
+
+TEST(RecordedPerception, ReadsAFileLineByLine) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("cairn_recorded_" + std::to_string(getpid()) + ".jsonl");
+  DetectedFrame second = example();
+  second.timestamp = 2.5;
+  std::ofstream(file) << to_json_line(example()) << "\n\n" << to_json_line(second) << "\n";
+  const auto frames = read_recorded_perception(file);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].timestamp, 2.5);
+  std::ofstream(file) << to_json_line(example()) << "\n\nnot JSON\n";
+  try {
+    read_recorded_perception(file);
+    FAIL() << "a bad line was read";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("line 3"));
+  }
+  std::filesystem::remove(file);
+  EXPECT_THROW(read_recorded_perception(file), Error);
+}
+
+}  // namespace
+}  // namespace cairn
