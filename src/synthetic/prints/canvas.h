@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cairn/synthetic/material.h"
+
+namespace cairn {
+
+/// A picture of a flat surface that is drawn upon in metres: x to the right, y downwards, as
+/// textures are read.
+class Canvas {
+ public:
+  Canvas(float width, float height, float texels_per_metre, const Colour& background);
+
+  float width() const { return width_; }
+  float height() const { return height_; }
+
+  void rectangle(float x, float y, float width, float height, const Colour& colour);
+  void disc(float x, float y, float radius, const Colour& colour);
+  void line(float x0, float y0, float x1, float y1, float thickness, const Colour& colour);
+  void polygon(const std::vector<Eigen::Vector2f>& corners, const Colour& colour);
+  /// Text that is `height` tall and starts at x; its base line at y.
+  void text(const std::string& text, float x, float y, float height, const Colour& colour,
+            float thickness = 0.12f);
+  /// Multiplies the picture by noise of the given strength (0 to 1) in grains of a size in metres
+  /// along x and y: fibres, weaves, wear.
+  void grain(float strength, float size_x, float size_y, std::uint64_t seed);
+
+  std::shared_ptr<const Texture> texture() const;
+
+ private:
+  cv::Point2f texel(float x, float y) const;
+
+  float width_, height_, scale_;
+  cv::Mat picture_;
+};
+
+}  // namespace cairn
