@@ -82,10 +82,10 @@ Model four_legged_chair(Dice& dice) {
   Assembly chair("chair");
   const bool wooden = dice.chance(0.65f);
   const Colour colour = wooden ? dice.colour(kWoods) : dice.colour(kMetals);
-  const auto frame = chair.material(
-      wooden
-          ? Material{.colour = Colour::Ones(), .texture = wood(1, 1, colour, dice), .gloss = 0.15f}
-          : Material{.colour = colour, .gloss = 0.4f});
+  const auto frame = chair.material(wooden ? Material{.colour = Colour::Ones(),
+                                                      .texture = wood(0.5f, 1, colour, dice),
+                                                      .gloss = 0.15f}
+                                           : Material{.colour = colour, .gloss = 0.4f});
   const auto soft =
       chair.material({.colour = Colour::Ones(), .texture = fabric(dice.colour(kFabrics), dice)});
   const float seat_z = dice.uniform(0.42f, 0.47f), top = dice.uniform(0.8f, 1.0f);

@@ -106,8 +106,7 @@ Model make_mouse(Dice& dice) {
   mouse.add(shell, mouse.material({.colour = colour, .gloss = dice.uniform(0.1f, 0.5f)}));
 
   const auto dark = mouse.material(
-      {.colour = Colour::Constant(colour.mean() < 0.1f ? 0.12f : 0.02f),
-       .gloss = 0.2f});
+      {.colour = Colour::Constant(colour.mean() < 0.1f ? 0.12f : 0.02f), .gloss = 0.2f});
   const float wheel_x = -0.28f * length, radius = 0.2f * height;
   const float wheel_z = shaped({wheel_x, 0, height}).z() - 0.55f * radius;
   Mesh wheel = extrude(circle(radius, 16), 0.007f, 0.001f);

@@ -44,10 +44,11 @@ Model make_dining_table(Dice& dice) {
   const auto top = table.material({.colour = Colour::Ones(),
                                    .texture = wood(width, deep, colour, dice),
                                    .gloss = dice.uniform(0.1f, 0.35f)});
-  const auto frame = table.material(
-      dice.chance(0.6f)
-          ? Material{.colour = Colour::Ones(), .texture = wood(1, 1, colour, dice), .gloss = 0.15f}
-          : Material{.colour = dice.colour(kMetals), .gloss = 0.3f});
+  const auto frame =
+      table.material(dice.chance(0.6f) ? Material{.colour = Colour::Ones(),
+                                                  .texture = wood(0.5f, 1, colour, dice),
+                                                  .gloss = 0.15f}
+                                       : Material{.colour = dice.colour(kMetals), .gloss = 0.3f});
   table.add(box({deep, width, thick}, {.radius = 0.003f, .cell = 0.04f}), top,
             at(0, 0, height - thick));
   const float x = deep / 2 - leg / 2 - set_in, y = width / 2 - leg / 2 - set_in;

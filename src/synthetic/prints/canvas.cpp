@@ -87,6 +87,17 @@ void Canvas::grain(float strength, float size_x, float size_y, std::uint64_t see
       }
 }
 
+void Canvas::paint(const std::function<Colour(float x, float y)>& colour_at) {
+  for (int row = 0; row < picture_.rows; ++row) {
+    for (int column = 0; column < picture_.cols; ++column) {
+      const cv::Scalar colour =
+          bgr(colour_at((float(column) + 0.5f) / scale_, (float(row) + 0.5f) / scale_));
+      for (int c = 0; c < 3; ++c)
+        picture_.at<cv::Vec3b>(row, column)[c] = cv::saturate_cast<uchar>(colour[c]);
+    }
+  }
+}
+
 std::shared_ptr<const Texture> Canvas::texture() const {
   return std::make_shared<Texture>(Texture{picture_.clone(), scale_});
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cairn/synthetic/material.h"
 
@@ -26,6 +28,9 @@ class Canvas {
   /// Multiplies the picture by noise of the given strength (0 to 1) in grains of a size in metres
   /// along x and y: fibres, weaves, wear.
   void grain(float strength, float size_x, float size_y, std::uint64_t seed);
+
+  /// Gives every texel the colour that the function has there.
+  void paint(const std::function<Colour(float x, float y)>& colour_at);
 
   std::shared_ptr<const Texture> texture() const;
 

@@ -1,6 +1,7 @@
 #include "cairn/synthetic/prints/prints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -153,8 +154,10 @@ Print page_edges(float width, float height, Dice& dice) {
 
 Print wood(float width, float height, const Colour& colour, Dice& dice) {
   Canvas canvas(width, height, std::min(1000.0f, 1024 / std::max(width, height)), colour);
-  canvas.grain(0.3f, 0.5f, 0.02f, dice.seed());
-  canvas.grain(0.22f, 0.12f, 0.004f, dice.seed());
+  const bool across = width >= height;
+  for (const auto& [strength, along, thick] :
+       {std::array{0.3f, 0.5f, 0.02f}, {0.22f, 0.12f, 0.004f}})
+    canvas.grain(strength, across ? along : thick, across ? thick : along, dice.seed());
   return canvas.texture();
 }
 
@@ -209,7 +212,7 @@ Print screen_content(float width, float height, Dice& dice) {
     while (down < tall - 10 * unit) {  // blocks of text in several colours, as code has them
       const float block = std::min(tall - down - 3 * unit, dice.uniform(6, 18) * unit);
       const Colour letters =
-            dark ? Colour(ink(dice) * 0.5f + Colour::Constant(0.3f)) : srgb(0x22262c);
+          dark ? Colour(ink(dice) * 0.5f + Colour::Constant(0.3f)) : srgb(0x22262c);
       text_lines(canvas, x + from + dice.uniform(0, 0.1f) * rest, y + down,
                  rest * dice.uniform(0.5f, 0.9f), block, 1.7f * unit, letters, dice);
       down += block + 3 * unit;

@@ -20,7 +20,7 @@ Print book_spine(float width, float height, const Colour& ground, Dice& dice);
 Print page_edges(float width, float height, Dice& dice);
 /// A desktop with windows, text, code and icons, or a photograph-like scene.
 Print screen_content(float width, float height, Dice& dice);
-/// Boards of wood, grain along the width.
+/// A board of wood, its grain along the longer side.
 Print wood(float width, float height, const Colour& colour, Dice& dice);
 /// Woven threads.
 Print fabric(const Colour& colour, Dice& dice);

@@ -138,4 +138,12 @@ Profile smooth_profile(std::span<const ProfilePoint> profile, int steps) {
   return result;
 }
 
+Mesh ball(float radius, int segments) {
+  Profile profile;
+  for (const float angle : evenly(-kPi / 2, kPi / 2, segments / 2 + 1))
+    profile.push_back({radius * std::cos(angle), radius * (1 + std::sin(angle))});
+  profile.front().r = profile.back().r = 0;
+  return lathe(profile, segments);
+}
+
 }  // namespace cairn

@@ -27,4 +27,7 @@ Profile round_profile(std::span<const ProfilePoint> profile, float radius, int s
 /// A smooth profile through the points (Catmull-Rom); materials stay with their pieces.
 Profile smooth_profile(std::span<const ProfilePoint> profile, int steps);
 
+/// A ball around (0, 0, radius).
+Mesh ball(float radius, int segments = 24);
+
 }  // namespace cairn
