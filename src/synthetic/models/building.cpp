@@ -67,7 +67,7 @@ Model make_door(Dice& dice) {
   const float plate = dice.uniform(0.1f, 0.16f);
   Canvas sign(plate, 0.6f * plate, 2000, srgb(0xf0f0ee));
   sign.text(std::to_string(100 + dice.below(400)), 0.1f * plate, 0.42f * plate, 0.26f * plate,
-            Colour::Constant(0.02f), 0.16f);
+            Colour::Constant(0.02f), {.max_width = 0.8f * plate});
   if (dice.chance(0.6f))
     door.add(box({0.004f, plate, 0.6f * plate}),
              door.material({.colour = Colour::Ones(), .texture = sign.texture()}),

@@ -88,10 +88,10 @@ std::vector<Eigen::Vector2f> BodyShape::half_section(float s) const {
   };
   const float crown = 0.02f + 0.02f * full;
   std::vector<Eigen::Vector2f> half(kPoints);
-  const float above_arch = std::min(b + 0.05f, d - 0.08f);
+  const float above_arch = std::min(b + 0.07f, d - 0.08f);
   half[kBottom] = {0, b};
   half[kFloorEdge] = {0.93f * w, b};
-  half[kSill] = {0.985f * w, b + 0.02f};
+  half[kSill] = {0.985f * w, b + 0.045f};
   half[kDoor] = {0.995f * w, std::max(clearance + 0.38f * (d - clearance), above_arch)};
   half[kWaist] = {w, std::max(clearance + 0.66f * (d - clearance), above_arch + 0.02f)};
   half[kShoulder] = {0.985f * w, d - 0.05f};
@@ -205,14 +205,19 @@ Mesh make_body(const BodyShape& body) {
   return loft(rings, 38, [&](int ring, int point) -> std::uint32_t {
     const float s = 0.5f * (all[ring] + all[ring + 1]);
     const int k = point < BodyShape::kRoof ? point : points - 1 - point;  // mirrored
-    if (k <= BodyShape::kFloorEdge) return k == BodyShape::kBottom ? 2 : 0;
+    if (k == BodyShape::kBottom) return 2;
+    if (k == BodyShape::kFloorEdge) return 4;
+    if (k == BodyShape::kWaist && s < 0.07f * body.length) return 5;
+    const bool high = k == BodyShape::kWaist || k == BodyShape::kShoulder;
+    if (high && s > 0.96f * body.length) return 6;
     const bool windscreen = s > body.cowl && s < body.roof_from;
     const bool rear = s > body.roof_to && s < body.rear_glass_to;
     if (k >= BodyShape::kRail && (windscreen || rear)) return 1;
     const float last = body.type == BodyType::kVan ? 0.55f : 1.0f;
     const bool side =
         s > body.cowl + 0.06f && s < body.cowl + last * (body.rear_glass_to - 0.16f - body.cowl);
-    if (k == BodyShape::kGlassFoot && side && !on_pillar(body, s)) return 1;
+    if (side && k == BodyShape::kBelt) return 3;
+    if (side && k == BodyShape::kGlassFoot) return on_pillar(body, s) ? 3 : 1;
     return 0;
   });
 }

@@ -48,7 +48,8 @@ struct BodyShape {
 
 BodyShape make_body_shape(BodyType type, Dice& dice);
 
-/// The body's surface. Materials: 0 paint, 1 glass, 2 underside.
+/// The body's surface. Materials: 0 paint, 1 glass, 2 underside, 3 trim around the windows, 4
+/// sills, 5 and 6 the front and rear lamps' share of the sides.
 Mesh make_body(const BodyShape& shape);
 
 }  // namespace cairn

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "cairn/synthetic/models/assembly.h"
 #include "cairn/synthetic/models/car_body.h"
 #include "cairn/synthetic/models/makers.h"
@@ -11,7 +13,7 @@ namespace {
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
 struct Parts {
-  std::uint32_t paint, glass, under, trim, lamp, red, plate;
+  std::uint32_t paint, glass, under, trim, chrome, lamp, red, plate;
 };
 
 Eigen::Vector3f mirrored(const Eigen::Vector3f& p, float side) {
@@ -53,46 +55,77 @@ void add_doors(Assembly& car, const BodyShape& body, const Parts& parts) {
   }
 }
 
+// From the flat face at the nose or the tail around to where make_body() goes on.
+void add_lamps(Assembly& car, const BodyShape& body, bool front, float width, std::uint32_t lamp) {
+  const float s = front ? 0 : body.length, out = front ? 1.0f : -1.0f;
+  const float low = body.at(s, BodyShape::kWaist).z() + 0.004f;
+  const float high = body.at(s, front ? BodyShape::kShoulder : BodyShape::kBelt).z() - 0.004f;
+  for (const float side : {-1.0f, 1.0f}) {
+    const float y = side * (body.half_width(s) - width / 2 - 0.004f);
+    car.add(box({0.03f, width, high - low}, {.radius = 0.012f, .steps = 2}), lamp,
+            at(out * (body.length / 2 - 0.007f), y, low));
+  }
+}
+
 void add_front(Assembly& car, const BodyShape& body, const Parts& parts, Dice& dice) {
   const float nose = body.length / 2, w = body.half_width(0);
-  const float lamp_w = dice.uniform(0.34f, 0.46f), lamp_h = dice.uniform(0.11f, 0.18f);
-  const float lamp_z = body.nose_z - 0.02f - lamp_h;
-  for (const float side : {-1.0f, 1.0f}) {  // the lamps go around the corner
-    const float s = 0.022f * body.length;
-    const float y = side * (body.half_width(s) - 0.42f * lamp_w);
-    car.add(box({0.12f, lamp_w, lamp_h}, {.radius = 0.045f, .steps = 2}), parts.lamp,
-            at(nose - s - 0.035f, y, lamp_z) * turned(kUp, side * 24));
-  }
-  const float grille_h = dice.uniform(0.08f, 0.2f), grille_w = 2 * w - 1.35f * lamp_w;
-  const float grille_z = body.nose_z - 0.06f - grille_h;
+  const float lamp = dice.uniform(0.26f, 0.36f);
+  add_lamps(car, body, true, lamp, parts.lamp);
+  const float top = body.at(0, BodyShape::kShoulder).z();
+  const float grille_h = dice.uniform(0.1f, 0.24f), grille_w = 2 * (w - lamp) - 0.06f;
+  const float grille_z = top - grille_h;
   car.add(box({0.03f, grille_w, grille_h}, {.radius = 0.012f}), parts.trim,
-          at(nose - 0.005f, 0, grille_z));
-  car.add(box({0.03f, 1.45f * w, 0.1f}, {.radius = 0.012f}), parts.trim,
-          at(nose - 0.006f, 0, body.clearance + 0.1f));
-  car.add(box({0.02f, 0.11f, 0.11f}, {.radius = 0.008f}), parts.lamp,
-          at(nose + 0.006f, 0, grille_z + 0.5f * grille_h - 0.055f));
+          at(nose - 0.004f, 0, grille_z));
+  const int bars = 2 + dice.below(4);
+  const bool chrome = dice.chance(0.6f);
+  for (const float z : evenly(grille_z + 0.02f, top - 0.03f, bars))
+    car.add(box({0.02f, 0.94f * grille_w, 0.012f}), chrome ? parts.chrome : parts.trim,
+            at(nose + 0.006f, 0, z));
+  car.add(box({0.012f, 0.1f, 0.1f}, {.radius = 0.005f}), parts.chrome,
+          at(nose + 0.014f, 0, grille_z + 0.5f * grille_h - 0.05f));
+  const float intake_z = body.clearance + 0.11f;
+  car.add(box({0.03f, 1.5f * w, 0.1f}, {.radius = 0.012f}), parts.trim,
+          at(nose - 0.006f, 0, intake_z));
+  for (const float side : {-1.0f, 1.0f})  // fog lamps
+    car.add(box({0.02f, 0.11f, 0.06f}, {.radius = 0.008f}), parts.lamp,
+            at(nose + 0.004f, side * 0.62f * w, intake_z + 0.02f));
   car.add(box({0.012f, 0.52f, 0.115f}, {.radius = 0.004f}), parts.plate,
-          at(nose + 0.006f, 0, body.clearance + 0.22f));
+          at(nose + 0.006f, 0, std::min(grille_z - 0.13f, intake_z + 0.05f)));
+  for (const float side : {-1.0f, 1.0f}) {  // the gaps beside the bonnet
+    Path gap;
+    for (const float s : evenly(0.04f * body.length, body.cowl - 0.02f, 7))
+      gap.push_back(body.at(s, BodyShape::kGlassFoot));
+    add_seam(car, gap, side, parts.trim);
+  }
 }
 
 void add_rear(Assembly& car, const BodyShape& body, const Parts& parts, Dice& dice) {
-  const float tail = -body.length / 2, s = 0.972f * body.length;
-  const bool tall = body.type != BodyType::kSaloon;
-  const float lamp_h = tall ? dice.uniform(0.22f, 0.4f) : dice.uniform(0.14f, 0.2f);
-  const float lamp_w = tall ? dice.uniform(0.16f, 0.26f) : dice.uniform(0.3f, 0.42f);
-  const float lamp_z = body.tail_z - 0.1f - lamp_h;
-  for (const float side : {-1.0f, 1.0f})
-    car.add(box({0.16f, lamp_w, lamp_h}, {.radius = 0.035f, .steps = 2}), parts.red,
-            at(body.length / 2 - s, side * (body.half_width(s) - 0.42f * lamp_w), lamp_z) *
-                turned(kUp, side * -14));
+  const float tail = -body.length / 2, w = body.half_width(body.length);
+  const float lamp =
+      body.type == BodyType::kSaloon ? dice.uniform(0.26f, 0.4f) : dice.uniform(0.12f, 0.3f);
+  add_lamps(car, body, false, lamp, parts.red);
+  const float low = body.at(body.length, BodyShape::kWaist).z();
+  const float plate_z = dice.chance(0.5f) ? low + 0.02f : body.clearance + 0.3f;
   car.add(box({0.012f, 0.52f, 0.115f}, {.radius = 0.004f}), parts.plate,
-          at(tail - 0.004f, 0, lamp_z - 0.06f) * turned(kUp, 180));
-  car.add(box({0.03f, 1.5f * body.half_width(body.length), 0.11f}, {.radius = 0.012f}), parts.trim,
-          at(tail, 0, body.clearance + 0.13f));
-  Path lid;  // the gap of the boot lid
-  const float half = 0.78f * body.half_width(body.length);
-  for (const float z : {lamp_z - 0.1f, body.tail_z - 0.1f}) lid.emplace_back(tail, half, z);
-  for (const float side : {-1.0f, 1.0f}) add_seam(car, lid, side, parts.trim);
+          at(tail - 0.004f, 0, plate_z) * turned(kUp, 180));
+  car.add(box({0.03f, 1.6f * w, 0.14f}, {.radius = 0.012f}), parts.trim,
+          at(tail, 0, body.clearance + 0.15f));
+  const float y = w - lamp - 0.02f;  // the gap around the boot lid
+  const Path lid{{tail, -y, body.tail_z - 0.09f},
+                 {tail, -y, low - 0.08f},
+                 {tail, y, low - 0.08f},
+                 {tail, y, body.tail_z - 0.09f}};
+  add_seam(car, lid, 1, parts.trim);
+  if (body.type != BodyType::kEstate) return;
+  for (const float side : {-1.0f, 1.0f}) {  // roof rails
+    Path rail;
+    const float from = body.roof_from + 0.15f, to = body.roof_to - 0.1f;
+    for (const float s : evenly(from, to, 9)) {
+      const bool end = s <= from || s >= to;
+      rail.push_back(mirrored(body.at(s, BodyShape::kRail), side) + (end ? 0.0f : 0.045f) * kUp);
+    }
+    car.add(tube(rail, 0.013f, 6), parts.chrome);
+  }
 }
 
 Print number_plate(Dice& dice) {
@@ -101,7 +134,8 @@ Print number_plate(Dice& dice) {
   std::string number;
   for (int i = 0; i < 7; ++i)
     number += i < 3 ? char('A' + dice.below(26)) : char('0' + dice.below(10));
-  canvas.text(number, 0.07f, 0.088f, 0.062f, Colour::Constant(0.01f), 0.18f);
+  canvas.text(number, 0.07f, 0.088f, 0.062f, Colour::Constant(0.01f),
+              {.thickness = 0.18f, .max_width = 0.42f});
   return canvas.texture();
 }
 
@@ -121,10 +155,13 @@ Model make_car(Dice& dice) {
   parts.glass = car.material({.colour = srgb(0x20262b), .gloss = 0.9f, .shininess = 120});
   parts.under = car.material({.colour = Colour::Constant(0.008f)});
   parts.trim = car.material({.colour = Colour::Constant(0.015f), .gloss = 0.15f});
+  parts.chrome = car.material({.colour = srgb(0xc4c7ca), .gloss = 0.8f, .shininess = 80});
   parts.lamp = car.material({.colour = srgb(0xd5dade), .gloss = 0.9f, .shininess = 90});
   parts.red = car.material({.colour = srgb(0xa3121a), .gloss = 0.7f, .shininess = 80});
   parts.plate = car.material({.colour = Colour::Ones(), .texture = number_plate(dice)});
-  car.add(make_body(body), {parts.paint, parts.glass, parts.under});
+  const bool clad = type == BodyType::kEstate && dice.chance(0.6f);
+  car.add(make_body(body), {parts.paint, parts.glass, parts.under, parts.trim,
+                            clad ? parts.trim : parts.paint, parts.lamp, parts.red});
   add_doors(car, body, parts);
   add_front(car, body, parts, dice);
   add_rear(car, body, parts, dice);

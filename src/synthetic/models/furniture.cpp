@@ -11,7 +11,11 @@ namespace {
 
 const Eigen::Vector3f kAcross = Eigen::Vector3f::UnitY();
 
+constexpr std::uint32_t kWhite = 0xe8e6e1;
+
+// Varnished wood, or painted where the colour is no wood's.
 Material wooden(const Colour& colour, Dice& dice) {
+  if (colour.minCoeff() > 0.5f * colour.maxCoeff()) return {.colour = colour, .gloss = 0.2f};
   return {.colour = Colour::Ones(), .texture = wood(1, 1, colour, dice), .gloss = 0.15f};
 }
 
@@ -41,7 +45,7 @@ Model make_couch(Dice& dice) {
   const float seat_z = dice.uniform(0.4f, 0.46f), back_z = dice.uniform(0.74f, 0.9f);
   const float foot = dice.uniform(0.05f, 0.12f), back = 0.2f, soft = dice.uniform(0.14f, 0.18f);
   const int seats = width < 1.8f ? 2 : 3;
-  const BoxOptions round{.radius = 0.04f, .steps = 2, .cell = 0.1f};
+  const BoxOptions round{.radius = 0.04f, .steps = 2, .cell = 0.2f};
 
   add_feet(couch, deep / 2 - 0.07f, width / 2 - 0.07f, foot + 0.02f, 0.05f, legs);
   couch.add(box({deep - 0.02f, width - 0.04f, seat_z - soft - foot + 0.03f}, round), cover,
@@ -49,7 +53,7 @@ Model make_couch(Dice& dice) {
   couch.add(box({back, width - 2 * arm + 0.04f, back_z - foot - 0.06f}, round), cover,
             at(-deep / 2 + back / 2, 0, foot));
   for (const float side : {-1.0f, 1.0f})
-    couch.add(box({deep, arm, arm_z - foot}, {.radius = 0.05f, .steps = 3, .cell = 0.1f}), cover,
+    couch.add(box({deep, arm, arm_z - foot}, {.radius = 0.05f, .steps = 2, .cell = 0.2f}), cover,
               at(0, side * (width / 2 - arm / 2), foot));
   const float inner = width - 2 * arm, each = inner / float(seats);
   for (int i = 0; i < seats; ++i) {
@@ -145,7 +149,7 @@ Model make_shelf(Dice& dice) {
   const float width = dice.uniform(0.6f, 1.2f), height = dice.uniform(1.3f, 2.1f);
   const float deep = dice.uniform(0.26f, 0.36f), board = dice.uniform(0.016f, 0.026f);
   const int floors = 4 + dice.below(3);
-  const Colour colour = dice.chance(0.3f) ? srgb(0xe8e6e1) : dice.colour(kWoods);
+  const Colour colour = dice.chance(0.3f) ? srgb(kWhite) : dice.colour(kWoods);
   const auto boards = shelf.material(wooden(colour, dice));
   const auto back = shelf.material(wooden(colour * 0.7f, dice));
   const BoxOptions cells{.cell = 0.1f};
@@ -183,7 +187,7 @@ Model make_cabinet(Dice& dice) {
   Assembly cabinet("cabinet");
   const float width = dice.uniform(0.6f, 1.6f), deep = dice.uniform(0.4f, 0.6f);
   const float height = dice.uniform(0.7f, 1.1f), foot = dice.uniform(0.04f, 0.14f);
-  const Colour colour = dice.chance(0.35f) ? srgb(0xe8e6e1) : dice.colour(kWoods);
+  const Colour colour = dice.chance(0.35f) ? srgb(kWhite) : dice.colour(kWoods);
   const auto body = cabinet.material(wooden(colour, dice));
   const auto fronts =
       cabinet.material(wooden(dice.chance(0.7f) ? colour : dice.colour(kWoods), dice));

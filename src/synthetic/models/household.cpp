@@ -25,9 +25,9 @@ Print clock_face(float radius, const Colour& ground, const Colour& ink, Dice& di
               radius * (i % 5 ? 0.012f : 0.03f), ink);
     if (numbers && i % 5 == 0) {
       const std::string hour = std::to_string(i == 0 ? 12 : i / 5);
-      const float tall = 0.15f * radius, wide = 0.45f * tall * 2 * float(hour.size());
-      face.text(hour, radius + 0.72f * radius * x - wide / 2,
-                radius + 0.72f * radius * y + tall / 2, tall, ink, 0.14f);
+      const float tall = 0.15f * radius;
+      face.text(hour, radius * (1 + 0.72f * x), radius * (1 + 0.72f * y) + tall / 2, tall, ink,
+                {.centred = true});
     }
   }
   const float hour = dice.uniform(0, 12), minute = hour - std::floor(hour);

@@ -77,8 +77,7 @@ Keys make_keys(const KeyOptions& options, Dice& dice) {
     if (key.width > 3) continue;  // the space bar says nothing
     const std::string legend =
         key.width > 1 ? dice.word(3, 4) : std::string(1, char('A' + dice.below(26)));
-    canvas.text(legend, y - wide / 2 + 0.004f, x + 0.001f, key.width > 1 ? 0.0028f : 0.0045f, ink,
-                0.16f);
+    canvas.text(legend, y - wide / 2 + 0.004f, x + 0.001f, key.width > 1 ? 0.0028f : 0.0045f, ink);
   }
   print_from_above(keys.mesh, {0, 0});
   keys.legends = canvas.texture();

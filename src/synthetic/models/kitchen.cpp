@@ -97,13 +97,14 @@ Model make_microwave(Dice& dice) {
   const float pw = panel - 0.016f, ph = tall - 0.012f;
   Canvas keys(pw, ph, 3000, ground);
   keys.rectangle(0.12f * pw, 0.06f * ph, 0.76f * pw, 0.14f * ph, srgb(0x06140c));
-  keys.text("10:24", 0.2f * pw, 0.17f * ph, 0.08f * ph, srgb(0x54f0a0), 0.14f);
+  keys.text("10:24", 0.5f * pw, 0.165f * ph, 0.07f * ph, srgb(0x54f0a0),
+            {.max_width = 0.64f * pw, .centred = true});
   for (int row = 0; row < 5; ++row)
     for (int i = 0; i < 3; ++i) {
       keys.rectangle((0.12f + 0.27f * float(i)) * pw, (0.27f + 0.11f * float(row)) * ph, 0.2f * pw,
                      0.075f * ph, Colour(ground + 0.12f * (ink - ground)));
-      keys.text(std::to_string((3 * row + i + 1) % 10), (0.19f + 0.27f * float(i)) * pw,
-                (0.325f + 0.11f * float(row)) * ph, 0.035f * ph, ink);
+      keys.text(std::to_string((3 * row + i + 1) % 10), (0.22f + 0.27f * float(i)) * pw,
+                (0.325f + 0.11f * float(row)) * ph, 0.035f * ph, ink, {.centred = true});
     }
   keys.disc(0.5f * pw, 0.9f * ph, 0.14f * pw, ink);
   const auto print =
@@ -119,7 +120,7 @@ Model round_fruit(std::string_view class_name, float radius, float flat, float d
                   std::span<const std::uint32_t> colours, bool stalk, Dice& dice) {
   Assembly fruit(class_name, Symmetry::kAnyTurn);
   Canvas skin(0.1f, 0.1f, 3000, dice.colour(colours));
-  skin.grain(0.35f, 0.012f, 0.05f, dice.seed());
+  if (stalk) skin.grain(0.3f, 0.01f, 0.05f, dice.seed());
   skin.grain(0.15f, 0.002f, 0.002f, dice.seed());
   const auto peel =
       fruit.material({.colour = Colour::Ones(), .texture = skin.texture(), .gloss = 0.35f});

@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::uint32_t kGreens[] = {0x2f5d2a, 0x3d7a35, 0x567d3a, 0x27502b, 0x6b8f3f};
+constexpr std::uint32_t kGreens[] = {0x3f7a38, 0x4d8f42, 0x6f9a45, 0x2f6a38, 0x86a84a, 0x5a8f5f};
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
 Print leaf_skin(float width, float length, const Colour& colour, Dice& dice) {
@@ -126,7 +126,7 @@ Print foliage_skin(const Colour& colour, Dice& dice) {
     const float x = dice.uniform(0, 1.2f), y = dice.uniform(0, 1.2f), a = dice.uniform(0, 6.283f);
     const float l = dice.uniform(0.02f, 0.045f), w = 0.4f * l;
     const Eigen::Vector2f c(x, y), u(std::cos(a), std::sin(a)), v(-u.y(), u.x());
-    const float light = (0.35f + 0.9f * float(i) / 2600) * dice.uniform(0.7f, 1.3f);
+    const float light = (0.5f + 0.9f * float(i) / 2600) * dice.uniform(0.7f, 1.3f);
     skin.polygon({c + l * u, c + w * v, c - l * u, c - w * v}, colour * light);
   }
   return skin.texture();

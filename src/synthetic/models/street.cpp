@@ -80,7 +80,8 @@ Model make_stop_sign(Dice& dice) {
     inner.emplace_back(half + (1 - edge / half) * p.x(), half + (1 - edge / half) * p.y());
   face.polygon(inner, srgb(0xb5121b) * dice.uniform(0.8f, 1.0f));
   const float tall = 0.5f * half;
-  face.text("STOP", 0.29f * half, half + 0.5f * tall, tall * 0.95f, srgb(0xf4f4f2), 0.2f);
+  face.text("STOP", half, half + 0.5f * tall, tall, srgb(0xf4f4f2),
+            {.thickness = 0.22f, .max_width = 1.5f * half, .centred = true});
   const auto print =
       sign.material({.colour = Colour::Ones(), .texture = face.texture(), .gloss = 0.3f});
   add_pole(sign, pole_r, pole_h + 0.3f * radius, metal);

@@ -27,7 +27,7 @@ Wall mug_wall(float height, float radius, Dice& dice) {
                                  {radius * (0.35f * foot + 0.65f * bulge), height * 0.25f},
                                  {radius * (0.15f + 0.85f * bulge), height * 0.55f},
                                  {radius, height}};
-  return {smooth_profile(points, kind == 0 ? 1 : 6), height, radius};
+  return {smooth_profile(points, kind == 0 ? 1 : 4), height, radius};
 }
 
 // A vessel that is open at the top: foot, outside (material 0), rim and inside (material 1).
@@ -68,7 +68,7 @@ Mesh handle(const Wall& wall, Dice& dice) {
   const float bottom = wall.height * dice.uniform(0.18f, 0.3f);
   const float reach = wall.height * dice.uniform(0.24f, 0.36f);
   const float thick = dice.uniform(0.0045f, 0.006f);
-  const float in = 0.0015f;  // the ends are hidden in the wall
+  const float in = 0.0025f;  // the ends are hidden in the wall
   const float r_top = radius_at(wall.outside, top), r_bottom = radius_at(wall.outside, bottom);
   const float out = std::max(r_top, r_bottom) + reach;
   const Path points{{0, r_top - in, top},
@@ -169,7 +169,7 @@ Model make_bowl(Dice& dice) {
                                  {radius * (0.1f + 0.88f * belly), height * 0.55f},
                                  {radius, height}};
   const Profile profile =
-      vessel({smooth_profile(points, 6), height, radius}, dice.uniform(0.003f, 0.006f));
+      vessel({smooth_profile(points, 4), height, radius}, dice.uniform(0.003f, 0.006f));
   const Colour ground = dice.colour(kGlazes);
   const float gloss = dice.uniform(0.15f, 0.6f);
   const auto outside = bowl.material(
@@ -194,7 +194,7 @@ Model make_vase(Dice& dice) {
                                  {0.5f * (belly + neck), height * (0.5f * belly_at + 0.42f)},
                                  {neck, height * 0.86f},
                                  {lip, height}};
-  const Profile profile = vessel({smooth_profile(points, 6), height, lip}, 0.004f);
+  const Profile profile = vessel({smooth_profile(points, 4), height, lip}, 0.004f);
   const Colour ground = dice.colour(kGlazes);
   const float gloss = dice.uniform(0.2f, 0.8f);
   const auto outside = vase.material(

@@ -101,9 +101,10 @@ Model make_truck(Dice& dice) {
   if (dice.chance(0.7f)) {
     Canvas side(bed_l, box_h, 120, cargo);
     const std::string name = dice.word(4, 8);
-    const float tall = std::min(0.25f * box_h, 0.8f * bed_l / float(name.size()));
+    const float tall = 0.25f * box_h;
     side.rectangle(0, 0.72f * box_h, bed_l, 0.08f * box_h, dice.colour(kPrints));
-    side.text(name, 0.1f * bed_l, 0.55f * box_h, tall, dice.colour(kPrints), 0.2f);
+    side.text(name, 0.1f * bed_l, 0.55f * box_h, tall, dice.colour(kPrints),
+              {.thickness = 0.2f, .max_width = 0.8f * bed_l});
     const auto print =
         truck.material({.colour = Colour::Ones(), .texture = side.texture(), .gloss = 0.15f});
     truck.add(box({bed_l, width + 0.1f, box_h}, {.radius = 0.02f, .cell = 0.4f}), print,
@@ -150,7 +151,7 @@ Model make_bus(Dice& dice) {
   // Where the bus goes to.
   Canvas sign(1.4f, 0.26f, 400, Colour::Constant(0.006f));
   sign.text(std::to_string(1 + dice.below(99)) + " " + dice.word(5, 8), 0.06f, 0.19f, 0.14f,
-            srgb(0xffb020), 0.16f);
+            srgb(0xffb020), {.thickness = 0.16f, .max_width = 1.28f});
   const auto display = bus.material({.colour = Colour::Constant(0.05f),
                                      .texture = sign.texture(),
                                      .emission = Colour::Constant(1)});

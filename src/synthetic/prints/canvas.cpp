@@ -24,7 +24,9 @@ cv::Point fixed(const cv::Point2f& p) {
 }  // namespace
 
 Canvas::Canvas(float width, float height, float texels_per_metre, const Colour& background)
-    : width_(width), height_(height), scale_(texels_per_metre) {
+    : width_(width),
+      height_(height),
+      scale_(std::min(texels_per_metre, std::sqrt(float(1 << 20) / (width * height)))) {
   const int columns = std::max(4, int(std::lround(width * scale_)));
   const int rows = std::max(4, int(std::lround(height * scale_)));
   picture_ = cv::Mat(rows, columns, CV_8UC3, bgr(background));
@@ -55,12 +57,23 @@ void Canvas::polygon(const std::vector<Eigen::Vector2f>& corners, const Colour& 
 }
 
 void Canvas::text(const std::string& text, float x, float y, float height, const Colour& colour,
-                  float thickness) {
+                  const Lettering& lettering) {
   constexpr double kLetterHeight = 21;  // texels of Hershey's capitals at scale 1
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+  double size = double(height * scale_) / kLetterHeight;
+  const auto thick = [&] {
+    return std::max(1, int(std::lround(size * kLetterHeight * double(lettering.thickness))));
+  };
+  const double room = double(lettering.max_width * scale_);
+  double wide = cv::getTextSize(text, kFont, size, thick(), nullptr).width;
+  if (wide > room) {
+    size *= room / wide;
+    wide = room;
+  }
   const cv::Point2f at = texel(x, y);
-  cv::putText(picture_, text, {int(std::lround(at.x)), int(std::lround(at.y))},
-              cv::FONT_HERSHEY_SIMPLEX, double(height * scale_) / kLetterHeight, bgr(colour),
-              std::max(1, int(std::lround(thickness * height * scale_))), cv::LINE_AA);
+  const double left = double(at.x) - (lettering.centred ? wide / 2 : 0);
+  cv::putText(picture_, text, {int(std::lround(left)), int(std::lround(at.y))}, kFont, size,
+              bgr(colour), thick(), cv::LINE_AA);
 }
 
 void Canvas::grain(float strength, float size_x, float size_y, std::uint64_t seed) {

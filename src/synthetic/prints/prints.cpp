@@ -52,7 +52,7 @@ void picture_of_shapes(Canvas& canvas, float x, float y, float width, float heig
 }  // namespace
 
 Print mug_print(float width, float height, const Colour& ground, Dice& dice) {
-  Canvas canvas(width, height, kFineTexels, ground);
+  Canvas canvas(width, height, std::min(kFineTexels, 900 / width), ground);
   switch (dice.below(5)) {
     case 0: {
       float y = height * dice.uniform(0.1f, 0.3f);
@@ -76,8 +76,8 @@ Print mug_print(float width, float height, const Colour& ground, Dice& dice) {
     case 2: {
       const std::string name = dice.word(3, 6);
       const float tall = height * dice.uniform(0.18f, 0.3f);
-      canvas.text(name, 0.5f * width - 0.42f * tall * float(name.size()), 0.55f * height, tall,
-                  readable_on(ground), 0.16f);
+      canvas.text(name, 0.5f * width, 0.55f * height, tall, readable_on(ground),
+                  {.thickness = 0.18f, .max_width = 0.36f * width, .centred = true});
       canvas.rectangle(0.35f * width, 0.64f * height, 0.3f * width, 0.04f * height, ink(dice));
       break;
     }
@@ -99,9 +99,10 @@ Print bottle_label(float width, float height, Dice& dice) {
   for (int side = 0; side < 3; ++side) {  // in front and at the two backs of the seam
     const float x = width * (0.06f + 0.34f * float(side));
     const std::string name = dice.word(4, 7);
-    const float tall = std::min(0.16f * height, 0.3f * width / (0.95f * float(name.size())));
+    const float tall = 0.16f * height;
     picture_of_shapes(canvas, x, 0.12f * height, 0.26f * width, 0.3f * height, dice);
-    canvas.text(name, x, 0.64f * height, tall, readable_on(ground), 0.18f);
+    canvas.text(name, x, 0.64f * height, tall, readable_on(ground),
+                {.thickness = 0.18f, .max_width = 0.26f * width});
     text_lines(canvas, x, 0.7f * height, 0.26f * width, 0.2f * height, 0.03f * height,
                readable_on(ground), dice);
   }
@@ -122,13 +123,14 @@ Print book_cover(float width, float height, const Colour& ground, Dice& dice) {
   float y = 0.16f * height;
   for (int line = 0; line < 2; ++line) {
     const std::string title = dice.word(4, 9);
-    const float tall = std::min(0.09f * height, 0.84f * width / (0.95f * float(title.size())));
-    canvas.text(title, 0.08f * width, y, tall, letters, 0.17f);
+    const float tall = 0.09f * height;
+    canvas.text(title, 0.08f * width, y, tall, letters,
+                {.thickness = 0.17f, .max_width = 0.84f * width});
     y += 1.5f * tall;
   }
   canvas.rectangle(0.08f * width, y - 0.02f * height, 0.5f * width, 0.008f * height, accent);
   canvas.text(dice.word(4, 7) + " " + dice.word(4, 8), 0.08f * width, 0.94f * height,
-              0.035f * height, letters);
+              0.035f * height, letters, {.max_width = 0.84f * width});
   return canvas.texture();
 }
 
@@ -139,10 +141,11 @@ Print book_spine(float width, float height, const Colour& ground, Dice& dice) {
   canvas.rectangle(0.04f * width, 0, 0.02f * width, height, accent);
   canvas.rectangle(0.9f * width, 0, 0.06f * width, height, accent);
   const std::string title = dice.word(4, 8) + " " + dice.word(3, 8);
-  const float tall = std::min(0.5f * height, 0.55f * width / (0.95f * float(title.size())));
-  canvas.text(title, 0.1f * width, 0.5f * height + 0.5f * tall, tall, readable_on(ground), 0.15f);
+  const float tall = 0.42f * height;
+  canvas.text(title, 0.1f * width, 0.5f * height + 0.5f * tall, tall, readable_on(ground),
+              {.thickness = 0.15f, .max_width = 0.55f * width});
   canvas.text(dice.word(4, 7), 0.7f * width, 0.5f * height + 0.3f * tall, 0.6f * tall,
-              readable_on(ground));
+              readable_on(ground), {.max_width = 0.19f * width});
   return canvas.texture();
 }
 
@@ -153,18 +156,18 @@ Print page_edges(float width, float height, Dice& dice) {
 }
 
 Print wood(float width, float height, const Colour& colour, Dice& dice) {
-  Canvas canvas(width, height, std::min(1000.0f, 1024 / std::max(width, height)), colour);
+  Canvas canvas(width, height, std::min(1000.0f, 640 / std::max(width, height)), colour);
   const bool across = width >= height;
   for (const auto& [strength, along, thick] :
-       {std::array{0.3f, 0.5f, 0.02f}, {0.22f, 0.12f, 0.004f}})
+       {std::array{0.24f, 0.6f, 0.022f}, {0.16f, 0.15f, 0.004f}})
     canvas.grain(strength, across ? along : thick, across ? thick : along, dice.seed());
   return canvas.texture();
 }
 
 Print fabric(const Colour& colour, Dice& dice) {
   Canvas canvas(0.4f, 0.4f, 1000, colour);
-  canvas.grain(0.25f, 0.03f, 0.03f, dice.seed());
-  canvas.grain(0.25f, 0.003f, 0.003f, dice.seed());
+  canvas.grain(0.12f, 0.05f, 0.05f, dice.seed());
+  canvas.grain(0.22f, 0.0025f, 0.0025f, dice.seed());
   return canvas.texture();
 }
 
@@ -173,8 +176,9 @@ Print poster_print(float width, float height, Dice& dice) {
   Canvas canvas(width, height, 900 / std::max(width, height), ground);
   picture_of_shapes(canvas, 0.06f * width, 0.22f * height, 0.88f * width, 0.5f * height, dice);
   const std::string title = dice.word(4, 8);
-  const float tall = std::min(0.11f * height, 0.88f * width / (0.95f * float(title.size())));
-  canvas.text(title, 0.06f * width, 0.17f * height, tall, readable_on(ground), 0.18f);
+  const float tall = 0.11f * height;
+  canvas.text(title, 0.06f * width, 0.17f * height, tall, readable_on(ground),
+              {.thickness = 0.18f, .max_width = 0.88f * width});
   text_lines(canvas, 0.06f * width, 0.76f * height, 0.88f * width, 0.18f * height, 0.018f * height,
              readable_on(ground), dice);
   return canvas.texture();

@@ -87,7 +87,7 @@ Mesh tapered_box(const Eigen::Vector2f& base, const Eigen::Vector2f& top, float 
 }
 
 Mesh cushion(const Eigen::Vector3f& size, float radius, float bulge) {
-  const float cell = std::max(0.05f, size.maxCoeff() / 14);
+  const float cell = std::max(0.05f, size.maxCoeff() / 10);
   Mesh mesh = box(size, {.radius = radius, .steps = 2, .cell = cell});
   const Eigen::Vector3f half = size / 2;
   deform(
