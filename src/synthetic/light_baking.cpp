@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 
 constexpr int kPacket = RayCaster::kPacket;
 constexpr int kGrid = 8;       // shadow rays a light: kGrid x kGrid
-constexpr int kGather = 64;    // rays for what comes from other surfaces
+constexpr int kGather = 48;    // rays for what comes from other surfaces
 constexpr float kLift = 1e-3f;  // metres off the surface, so that it does not shade itself
 
 // Where the light of a vertex is taken: a little off the surface and towards the middle of the
@@ -44,7 +44,8 @@ std::vector<Sample> samples_of(const Mesh& mesh) {
   return samples;
 }
 
-// Evenly spread, weighted by the cosine to +z (a spiral; Vogel 1979 on the unit disc, lifted).
+// Evenly spread, weighted by the cosine to +z (a spiral; Vogel 1979 on the unit disc, lifted), and
+// sorted so that those of one packet are neighbours.
 std::array<Vector3f, kGather> gather_directions() {
   std::array<Vector3f, kGather> directions;
   for (int i = 0; i < kGather; ++i) {
@@ -52,6 +53,7 @@ std::array<Vector3f, kGather> gather_directions() {
     const float r = std::sqrt(r2);
     directions[std::size_t(i)] = {r * std::cos(angle), r * std::sin(angle), std::sqrt(1 - r2)};
   }
+  std::ranges::sort(directions, {}, [](const Vector3f& d) { return std::atan2(d.y(), d.x()); });
   return directions;
 }
 
@@ -79,7 +81,9 @@ class Baker {
   // lies between their ends: where it was, interpolation does as well.
   void refine(std::size_t thing, Mesh& mesh, std::vector<Colour>& light) const {
     mesh = coarse_[thing];
-    light_from(mesh, light, 0);
+    light = direct_[thing];
+    const auto samples = samples_of(mesh);
+    each(samples.size(), [&](std::size_t i) { light[i] += gathered(samples[i]); });
     std::vector<char> rough(light.size(), 1);
     while (true) {
       const std::size_t before = light.size();

@@ -12,9 +12,9 @@
 namespace cairn {
 
 struct BakeOptions {
-  float cell = 0.12f;         ///< metres, the longest edge before refinement
-  float finest_cell = 0.01f;  ///< metres, no edge is split into shorter ones
-  float contrast = 0.05f;     ///< share of the light by which the ends of an edge may differ
+  float cell = 0.16f;         ///< metres, the longest edge before refinement
+  float finest_cell = 0.012f;  ///< metres, no edge is split into shorter ones
+  float contrast = 0.07f;     ///< share of the light by which the ends of an edge may differ
   float openness = 0.5f;      ///< metres to the next surface at which half the ambient light is left
 };
 

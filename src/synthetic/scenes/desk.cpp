@@ -22,8 +22,7 @@ struct Table {
 // Long side along x, its back near the wall at -y.
 Table add_table(Layout& layout, const Room& room) {
   Model table = make_model("dining table", layout.seed());
-  Eigen::AlignedBox3f box;
-  for (const auto& vertex : table.mesh.vertices) box.extend(vertex.position);
+  const Eigen::AlignedBox3f box = extent(table);
   const float yaw = box.sizes().x() > box.sizes().y() ? 0 : kToViewer;
   const float depth = std::min(box.sizes().x(), box.sizes().y());
   const Vector3f at(layout.uniform(-0.4f, 0.2f), -room.size().y() / 2 + depth / 2 + 0.06f, 0);
@@ -49,16 +48,14 @@ void put(Layout& layout, Tray& tray, const Table& table, const std::string& clas
 void pile_books(Layout& layout, Tray& tray, const Table& table) {
   float height = 0;
   std::optional<SE3> base;
-  int plane = table.plane;
   for (int i = layout.below(3) + 2; i > 0; --i) {
     Model book = make_model("book", layout.seed());
     if (!base) base = tray.find(book, layout, 0.8f, 2.4f);
     if (!base) return;
-    float thick = 0;
-    for (const auto& vertex : book.mesh.vertices) thick = std::max(thick, vertex.position.z());
+    const float thick = extent(book).max().z();
     const SE3 T_bo = standing({layout.uniform(-0.01f, 0.01f), layout.uniform(-0.01f, 0.01f), height},
                               layout.uniform(-0.15f, 0.15f));
-    layout.add_object(std::move(book), *base * T_bo, plane);
+    layout.add_object(std::move(book), *base * T_bo, table.plane);
     height += thick;
   }
 }
@@ -77,7 +74,8 @@ void set_table(Layout& layout, const Table& table) {
   pile_books(layout, tray, table);
   for (const auto& [name, count] :
        {std::pair("cup", 3), std::pair("bottle", 2), std::pair("book", 2), std::pair("bowl", 1),
-        std::pair("cell phone", 1), std::pair("vase", 1)}) {
+        std::pair("cell phone", 1), std::pair("remote", 1), std::pair("apple", 1),
+        std::pair("potted plant", 1)}) {
     for (int i = 0; i < count; ++i) {
       Model model = make_model(name, layout.seed());
       const bool flat = std::string(name) == "book" || std::string(name) == "cell phone";
@@ -103,15 +101,9 @@ void furnish(Layout& layout, Room& room, const Table& table) {
     add_books(layout, T_ws, shelf, board, layout.add_plane("shelf", outline));
   }
   layout.add_surface("shelf", std::move(shelf.mesh), T_ws, room.floor_plane());
-  // A cabinet at the wall on the right.
-  const Vector3f size(0.42f, layout.uniform(0.8f, 1.1f), layout.uniform(0.7f, 1.0f));
-  const int cabinet = layout.add_surface(
-      "cabinet", make_cabinet(layout, size),
-      standing({room.size().x() / 2 - size.x() / 2 - 0.02f, back + 1.2f, 0}, kHalfTurn),
-      room.floor_plane());
-  const int top = layout.add_top(cabinet, "cabinet");
-  Tray tray((layout.plane(top).outline[0]).cast<float>(), {-size.x(), 0, 0}, {0, size.y(), 0});
-  (void)tray;
+  const int cabinet =
+      stand_at_wall(layout, room, 0, layout.uniform(0.5f, 0.9f), make_model("cabinet", layout.seed()));
+  lay_things(layout, layout.add_top(cabinet, "cabinet"), {"potted plant", "vase", "bowl", "clock"});
   // The chair stands at one end, pushed back.
   layout.add_object(make_model("chair", layout.seed()),
                     standing({table.centre.x() + layout.uniform(-0.5f, 0.5f),

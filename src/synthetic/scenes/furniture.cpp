@@ -30,27 +30,6 @@ Shelf make_shelf(Layout& layout, float width, float height, int boards) {
   return shelf;
 }
 
-Mesh make_cabinet(Layout& layout, const Vector3f& size) {
-  Mesh mesh;
-  const auto body = mesh.add(layout.chance(0.6f)
-                                 ? patterned(Pattern::kWood, layout.seed(), 0.2f)
-                                 : plain(Colour::Constant(layout.uniform(0.4f, 0.75f)), 0.25f));
-  const auto metal = mesh.add(plain(Colour::Constant(0.4f), 0.8f, 100));
-  add_box(mesh, {-0.01f, 0, size.z() / 2}, {size.x() - 0.02f, size.y(), size.z()}, body);
-  const int rows = 1 + int(size.z() / 0.28f), columns = 1 + int(size.y() / 0.7f);
-  const float w = size.y() / float(columns), h = (size.z() - 0.06f) / float(rows);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const float y = -size.y() / 2 + (float(column) + 0.5f) * w;
-      const float z = 0.05f + (float(row) + 0.5f) * h;
-      add_box(mesh, {size.x() / 2 - 0.01f, y, z}, {0.02f, w - 0.012f, h - 0.012f}, body,
-              {0.7f * float(row), 0.4f * float(column)});
-      add_box(mesh, {size.x() / 2 + 0.012f, y, z + 0.25f * h}, {0.016f, 0.12f, 0.012f}, metal);
-    }
-  }
-  return mesh;
-}
-
 void add_books(Layout& layout, const SE3& T_wo, const Shelf& shelf, float height, int plane) {
   float at = -shelf.width / 2 + 0.03f;
   const float stop = shelf.width / 2 - 0.05f - layout.uniform(0, 0.4f) * shelf.width;

@@ -12,6 +12,28 @@ constexpr float kSkirting = 0.08f;
 
 }  // namespace
 
+int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model model) {
+  const Eigen::AlignedBox3f box = extent(model);
+  const SE3 T = room.wall(wall);
+  const Eigen::Vector3d at = T * Eigen::Vector3d(double(x), 0, 0.03 - double(box.min().x()));
+  const Eigen::Vector3d front = T.rotation() * Eigen::Vector3d::UnitZ();
+  return layout.add_object(std::move(model),
+                           standing(at.cast<float>(), float(std::atan2(front.y(), front.x()))),
+                           room.floor_plane());
+}
+
+void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes) {
+  Eigen::AlignedBox3d box;
+  for (const auto& corner : layout.plane(plane).outline) box.extend(corner);
+  const Vector3f corner = box.min().cast<float>(), size = box.sizes().cast<float>();
+  Tray tray(corner, {size.x(), 0, 0}, {0, size.y(), 0});
+  for (const char* name : classes) {
+    Model model = make_model(name, layout.seed());
+    const auto T_wo = tray.find(model, layout, 0, 2 * float(M_PI));
+    if (T_wo) layout.add_object(std::move(model), *T_wo, plane);
+  }
+}
+
 Material patterned(Pattern pattern, std::uint64_t seed, float gloss, float shininess) {
   Material material;
   material.colour = Colour::Ones();

@@ -31,6 +31,11 @@ class Room {
   int floor_ = 0;
 };
 
+/// Stands a model with its back at a wall, `x` along it; returns its index.
+int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model model);
+/// Lays things of these classes onto a plane, as many as find room.
+void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes);
+
 Material patterned(Pattern pattern, std::uint64_t seed, float gloss = 0, float shininess = 30);
 Material plain(const Colour& colour, float gloss = 0, float shininess = 30);
 
@@ -45,8 +50,6 @@ struct Shelf {
 };
 /// Model frame: front towards +x, footprint's middle at the origin.
 Shelf make_shelf(Layout& layout, float width, float height, int boards);
-/// A chest of drawers. Model frame as above.
-Mesh make_cabinet(Layout& layout, const Eigen::Vector3f& size);
 /// Fills a board with books that stand side by side, spines to the front.
 void add_books(Layout& layout, const SE3& T_wo, const Shelf& shelf, float height, int plane);
 

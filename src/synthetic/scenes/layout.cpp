@@ -42,7 +42,10 @@ int Layout::add_surface(const std::string& label, Mesh mesh, const SE3& T_wo,
 }
 
 int Layout::add_object(Model model, const SE3& T_wo, std::optional<int> supported_by) {
-  scene_.things.push_back({std::move(model), T_wo, true, supported_by});
+  static constexpr std::string_view kNoCocoClass[] = {
+      "shelf", "cabinet", "tree", "door", "window", "poster", "lamp", "floor lamp"};
+  const bool known = std::ranges::count(kNoCocoClass, std::string_view(model.class_name)) == 0;
+  scene_.things.push_back({std::move(model), T_wo, known, supported_by});
   return int(scene_.things.size()) - 1;
 }
 
@@ -86,6 +89,12 @@ int Layout::add_top(int thing, const std::string& label) {
   level.normal = Vector3d::UnitZ();
   level.d = -level.outline[0].z();
   return plane;
+}
+
+Eigen::AlignedBox3f extent(const Model& model) {
+  Eigen::AlignedBox3f box;
+  for (const auto& vertex : model.mesh.vertices) box.extend(vertex.position);
+  return box;
 }
 
 SE3 standing(const Vector3f& at, float yaw) {

@@ -27,6 +27,7 @@ class Layout {
   /// Part of a building, or furniture that no detector knows.
   int add_surface(const std::string& label, Mesh mesh, const SE3& T_wo = SE3(),
                   std::optional<int> supported_by = {});
+  /// A model; an object if its class is one of COCO's, and else a surface with a name.
   int add_object(Model model, const SE3& T_wo, std::optional<int> supported_by);
   /// A rectangle that shines and can be seen shining. `u x v` points to where it shines.
   void add_lamp(const Eigen::Vector3f& centre, const Eigen::Vector3f& u, const Eigen::Vector3f& v,
@@ -43,6 +44,9 @@ class Layout {
   Scene scene_;
   Sampler sampler_;
 };
+
+/// The extent of a model in its own frame.
+Eigen::AlignedBox3f extent(const Model& model);
 
 /// Upright at a place, turned about the vertical axis.
 SE3 standing(const Eigen::Vector3f& at, float yaw);
