@@ -66,9 +66,9 @@ SequenceFolder::SequenceFolder(fs::path folder, SynthSensor sensor, const Camera
       poses_("# timestamp tx ty tz qx qy qz qw (camera to world)\n") {
   const bool stereo = sensor == SynthSensor::kStereo;
   pictures_ = stereo ? folder_ / "sequences" / "00" : folder_;
-  for (const char* list : {"rgb.txt", "depth.txt", "groundtruth.txt", "calibration.yaml",
-                           "world.json", "truth.jsonl", "sequences/00/times.txt",
-                           "sequences/00/calib.txt", "poses/00.txt"}) {
+  for (const char* list :
+       {"rgb.txt", "depth.txt", "groundtruth.txt", "calibration.yaml", "world.json", "truth.jsonl",
+        "sequences/00/times.txt", "sequences/00/calib.txt", "poses/00.txt"}) {
     fs::remove(folder_ / list);
   }
   make_output_folder(pictures_ / (stereo ? "image_0" : "rgb"));

@@ -74,8 +74,8 @@ bool render_frames(const Arguments& arguments, const World& world, const Camera&
 int synthesize(const Arguments& arguments) {
   const SceneKind kind = parse_scene_kind(arguments.scene);
   const bool stereo = arguments.sensor == "stereo";
-  const Camera camera = default_camera(kind, arguments.width, arguments.height,
-                                       !arguments.no_distortion && !stereo);
+  const Camera camera =
+      default_camera(kind, arguments.width, arguments.height, !arguments.no_distortion && !stereo);
   const fs::path out = prepare_output_folder(arguments.out, "", arguments.force);
   remember_interrupts();
   Scene scene = make_scene(kind, arguments.seed);
@@ -98,8 +98,9 @@ void add_switches(CLI::App& command, Arguments& arguments) {
   command.add_flag("--no-vignetting", arguments.no_vignetting, "corners as bright as the middle");
   command.add_flag("--no-auto-exposure", arguments.no_exposure, "one exposure for all pictures");
   command.add_flag("--no-noise", arguments.no_noise, "a sensor without noise");
-  command.add_option("--rolling-shutter", arguments.readout_ms,
-                     "milliseconds from the first row to the last")
+  command
+      .add_option("--rolling-shutter", arguments.readout_ms,
+                  "milliseconds from the first row to the last")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
 }
@@ -113,13 +114,15 @@ Action add_synth(CLI::App& program) {
   command->add_option("out", arguments->out, "the folder to write")->required()->type_name("OUT");
   command->add_option("--scene", arguments->scene, "desk, room, corridor or street")
       ->capture_default_str();
-  command->add_option("--frames", arguments->frames,
-                      "pictures to render; without it the whole path of the scene")
+  command
+      ->add_option("--frames", arguments->frames,
+                   "pictures to render; without it the whole path of the scene")
       ->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->seed, "another seed gives another world and path")
       ->capture_default_str();
-  command->add_option("--sensor", arguments->sensor,
-                      "mono, stereo (KITTI's layout) or rgbd (with depth.txt)")
+  command
+      ->add_option("--sensor", arguments->sensor,
+                   "mono, stereo (KITTI's layout) or rgbd (with depth.txt)")
       ->check(CLI::IsMember({"mono", "stereo", "rgbd"}))
       ->capture_default_str();
   command->add_option("--width", arguments->width, "pixels")
@@ -131,9 +134,10 @@ Action add_synth(CLI::App& program) {
   command->add_option("--samples", arguments->samples, "rays a pixel")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->add_option("--truth", arguments->truth,
-                      "all: truth.jsonl, depth, normals, labels and instances of each frame; "
-                      "poses: only poses and world.json")
+  command
+      ->add_option("--truth", arguments->truth,
+                   "all: truth.jsonl, depth, normals, labels and instances of each frame; "
+                   "poses: only poses and world.json")
       ->check(CLI::IsMember({"all", "poses"}))
       ->capture_default_str();
   add_switches(*command, *arguments);

@@ -97,48 +97,62 @@ Matrix3d nearest_to_identity(const Matrix3d& axes, Vector3d& values) {
   return R;
 }
 
+// The least ellipsoid around few points, as exact as their weights are.
+EnclosingEllipsoid ellipsoid_of(const std::vector<Vector3d>& points, const VectorXd& weights) {
+  Vector3d centre = Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) centre += weights[Eigen::Index(i)] * points[i];
+  Matrix3d second = Matrix3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3d from_centre = points[i] - centre;
+    second += weights[Eigen::Index(i)] * from_centre * from_centre.transpose();
+  }
+  // (x - c)' (3 S)^-1 (x - c) <= 1
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(3 * second);
+  EnclosingEllipsoid result;
+  result.centre = centre;
+  result.semi_axes = eigen.eigenvalues().cwiseMax(1e-12).cwiseSqrt();
+  const Matrix3d R = nearest_to_identity(eigen.eigenvectors(), result.semi_axes);
+  result.rotation = Eigen::Quaterniond(R).normalized();
+  return result;
+}
+
+bool span_space(const std::vector<Vector3d>& points) {
+  if (points.size() < 4) return false;
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& X : points) mean += X / double(points.size());
+  Matrix3d spread = Matrix3d::Zero();
+  for (const Vector3d& X : points) spread += (X - mean) * (X - mean).transpose();
+  return Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvalues()[0] > 1e-10;
+}
+
 }  // namespace
 
 std::optional<EnclosingEllipsoid> minimum_enclosing_ellipsoid(std::span<const Vector3d> points,
                                                               double tolerance) {
-  if (points.size() < 4) return std::nullopt;
+  if (points.empty()) return std::nullopt;
   // In units of the cloud, around its middle: the numbers stay tame.
   Eigen::AlignedBox3d box;
   for (const Vector3d& X : points) box.extend(X);
-  const Vector3d middle = box.center();
   const double scale = box.diagonal().norm() / 2;
   if (!(scale > 0)) return std::nullopt;
   std::vector<Vector3d> all;
-  for (const Vector3d& X : points) all.emplace_back((X - middle) / scale);
-  const std::vector<Vector3d> few = outermost(all);
-  if (few.size() < 4) return std::nullopt;
-  Matrix3d spread = Matrix3d::Zero();
-  for (const Vector3d& X : few) spread += X * X.transpose();
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& X : few) mean += X / double(few.size());
-  spread -= double(few.size()) * mean * mean.transpose();
-  if (Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvalues()[0] < 1e-10) return std::nullopt;
-
-  const VectorXd weights = optimal_weights(few, tolerance);
-  Vector3d centre = Vector3d::Zero();
-  Matrix3d second = Matrix3d::Zero();
-  for (std::size_t i = 0; i < few.size(); ++i) {
-    centre += weights[Eigen::Index(i)] * few[i];
-    second += weights[Eigen::Index(i)] * few[i] * few[i].transpose();
+  for (const Vector3d& X : points) all.emplace_back((X - box.center()) / scale);
+  std::vector<Vector3d> few = outermost(all);
+  if (!span_space(few)) return std::nullopt;
+  while (true) {
+    EnclosingEllipsoid result = ellipsoid_of(few, optimal_weights(few, tolerance));
+    const auto farthest =
+        std::ranges::max_element(all, {}, [&](const Vector3d& X) { return result.level(X); });
+    const double level = result.level(*farthest);
+    // One that was overlooked matters; one that is known cannot be helped by knowing it twice.
+    if (level > 1 + 4 * tolerance && std::ranges::find(few, *farthest) == few.end()) {
+      few.push_back(*farthest);
+      continue;
+    }
+    result.semi_axes *= std::sqrt(std::max(level, 1.0)) * (1 + 1e-12) * scale;
+    result.centre = box.center() + scale * result.centre;
+    return result;
   }
-  // (x - c)' (3 S)^-1 (x - c) <= 1
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(3 * (second - centre * centre.transpose()));
-  Vector3d axes = eigen.eigenvalues().cwiseMax(1e-12).cwiseSqrt();
-  EnclosingEllipsoid result;
-  const Matrix3d R = nearest_to_identity(eigen.eigenvectors(), axes);
-  result.rotation = Eigen::Quaterniond(R).normalized();
-  result.centre = centre;
-  result.semi_axes = axes;
-  double outermost_level = 0;
-  for (const Vector3d& X : all) outermost_level = std::max(outermost_level, result.level(X));
-  result.semi_axes *= std::sqrt(outermost_level) * (1 + 1e-12) * scale;
-  result.centre = middle + scale * centre;
-  return result;
 }
 
 }  // namespace cairn

@@ -95,7 +95,8 @@ struct DemoScene::World {
     const Matrix3f R_wb =
         Eigen::AngleAxisf(yaw_deg * float(M_PI) / 180, Vector3f::UnitZ()).toRotationMatrix();
     boxes.push_back({centre, 0.5f * size, R_wb.transpose(),
-                     make_demo_texture(surface, texture, seed * 64 + boxes.size()), texels_per_metre});
+                     make_demo_texture(surface, texture, seed * 64 + boxes.size()),
+                     texels_per_metre});
   }
 
   View seen_from(const SE3& T_wc, const Camera& camera) const {

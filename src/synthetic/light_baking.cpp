@@ -15,8 +15,8 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr int kPacket = RayCaster::kPacket;
-constexpr int kGrid = 8;       // shadow rays a light: kGrid x kGrid
-constexpr int kGather = 48;    // rays for what comes from other surfaces
+constexpr int kGrid = 8;        // shadow rays a light: kGrid x kGrid
+constexpr int kGather = 48;     // rays for what comes from other surfaces
 constexpr float kLift = 1e-3f;  // metres off the surface, so that it does not shade itself
 
 // Where the light of a vertex is taken: a little off the surface and towards the middle of the
@@ -29,9 +29,9 @@ std::vector<Sample> samples_of(const Mesh& mesh) {
   std::vector<Vector3f> middle(mesh.vertices.size(), Vector3f::Zero());
   std::vector<int> count(mesh.vertices.size(), 0);
   for (const auto& t : mesh.triangles) {
-    const Vector3f centroid = (mesh.vertices[t.a].position + mesh.vertices[t.b].position +
-                               mesh.vertices[t.c].position) /
-                              3;
+    const Vector3f centroid =
+        (mesh.vertices[t.a].position + mesh.vertices[t.b].position + mesh.vertices[t.c].position) /
+        3;
     for (const auto i : {t.a, t.b, t.c}) middle[i] += centroid, ++count[i];
   }
   std::vector<Sample> samples(mesh.vertices.size());
@@ -173,7 +173,8 @@ class Baker {
         std::array<float, kPacket> weight{};
         for (int i = 0; i < kGrid; ++i) {
           const auto k = std::size_t(i);
-          const float a = (float(i) + 0.5f) * 2 / kGrid - 1, b = (float(row) + 0.5f) * 2 / kGrid - 1;
+          const float a = (float(i) + 0.5f) * 2 / kGrid - 1,
+                      b = (float(row) + 0.5f) * 2 / kGrid - 1;
           const Vector3f to = light.centre + a * light.u + b * light.v - sample.position;
           const float r2 = to.squaredNorm(), r = std::sqrt(r2);
           weight[k] = std::max(0.f, sample.normal.dot(to) / r) *
@@ -227,8 +228,7 @@ class Baker {
     if (hit.normal.dot(direction) > 0) return Colour::Zero();  // from inside of a thing
     const auto& t = coarse_[thing].triangles[hit.triangle];
     const auto& light = direct_[thing];
-    const Colour at =
-        (1 - hit.u - hit.v) * light[t.a] + hit.u * light[t.b] + hit.v * light[t.c];
+    const Colour at = (1 - hit.u - hit.v) * light[t.a] + hit.u * light[t.b] + hit.v * light[t.c];
     return albedo_[thing][t.material].cwiseProduct(at) + open * scene_.ambient;
   }
 

@@ -12,14 +12,14 @@
 namespace cairn {
 
 struct BakeOptions {
-  float cell = 0.16f;         ///< metres, the longest edge before refinement
+  float cell = 0.16f;          ///< metres, the longest edge before refinement
   float finest_cell = 0.012f;  ///< metres, no edge is split into shorter ones
-  float contrast = 0.07f;     ///< share of the light by which the ends of an edge may differ
-  float openness = 0.5f;      ///< metres to the next surface at which half the ambient light is left
+  float contrast = 0.07f;      ///< share of the light by which the ends of an edge may differ
+  float openness = 0.5f;  ///< metres to the next surface at which half the ambient light is left
 };
 
-/// Meshes in the world frame and the light that falls on their vertices: irradiance over pi, so that
-/// times the albedo it is what a diffuse surface sends to the eye.
+/// Meshes in the world frame and the light that falls on their vertices: irradiance over pi, so
+/// that times the albedo it is what a diffuse surface sends to the eye.
 struct LitMeshes {
   std::vector<Mesh> meshes;
   std::vector<std::vector<Colour>> light;  ///< of mesh and vertex

@@ -9,8 +9,8 @@ namespace cairn {
 
 /// What a map should know about an object in the end. World frame, metres.
 struct ObjectTruth {
-  int thing = 0;                 ///< index into Scene::things
-  EnclosingEllipsoid ellipsoid;  ///< of least volume around its surface
+  int thing = 0;                                  ///< index into Scene::things
+  EnclosingEllipsoid ellipsoid;                   ///< of least volume around its surface
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< its symmetry is about this axis
   std::vector<Eigen::Vector3d> surface_points;    ///< evenly spread over its surface
 };

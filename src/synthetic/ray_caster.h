@@ -15,10 +15,10 @@ namespace cairn {
 struct RayHit {
   static constexpr std::int32_t kNothing = -1;
 
-  float distance = 0;              ///< in lengths of the ray's direction
-  std::int32_t thing = kNothing;   ///< index of the mesh
-  std::uint32_t triangle = 0;      ///< of that mesh
-  float u = 0, v = 0;              ///< barycentric weights of its second and third corner
+  float distance = 0;             ///< in lengths of the ray's direction
+  std::int32_t thing = kNothing;  ///< index of the mesh
+  std::uint32_t triangle = 0;     ///< of that mesh
+  float u = 0, v = 0;             ///< barycentric weights of its second and third corner
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of the triangle; not normalised
 
   bool found() const { return thing != kNothing; }

@@ -21,8 +21,9 @@ Scene make_scene(SceneKind kind, std::uint64_t seed) {
 
 SceneKind parse_scene_kind(const std::string& name) {
   using enum SceneKind;
-  for (const auto& [known, kind] : {std::pair("desk", kDesk), std::pair("room", kRoom),
-                                    std::pair("corridor", kCorridor), std::pair("street", kStreet)}) {
+  for (const auto& [known, kind] :
+       {std::pair("desk", kDesk), std::pair("room", kRoom), std::pair("corridor", kCorridor),
+        std::pair("street", kStreet)}) {
     if (name == known) return kind;
   }
   throw Error(Error::Kind::kUsage,

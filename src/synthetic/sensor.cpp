@@ -68,8 +68,8 @@ cv::Mat develop(const cv::Mat& light, double gain, const SensorOptions& options,
         const float dx = float(x) - middle_x, dy = float(y) - middle_y;
         const float shade =
             float(gain) * (1 - float(options.vignetting) * (dx * dx + dy * dy) / corner);
-        std::uint64_t bits = stream + 3 * (std::uint64_t(y) * std::uint64_t(light.cols) +
-                                           std::uint64_t(x));
+        std::uint64_t bits =
+            stream + 3 * (std::uint64_t(y) * std::uint64_t(light.cols) + std::uint64_t(x));
         for (int c = 0; c < 3; ++c) {
           const float value = shade * from[x][c];
           const float deviation = std::sqrt(shot * value + read);

@@ -68,9 +68,9 @@ Vector3f Shading::normal(const RayHit& hit, const Vector3f& direction) const {
   const Mesh& mesh = lit_.meshes[std::size_t(hit.thing)];
   const auto& t = mesh.triangles[hit.triangle];
   const auto& V = mesh.vertices;
-  const Vector3f normal = ((1 - hit.u - hit.v) * V[t.a].normal + hit.u * V[t.b].normal +
-                           hit.v * V[t.c].normal)
-                              .normalized();
+  const Vector3f normal =
+      ((1 - hit.u - hit.v) * V[t.a].normal + hit.u * V[t.b].normal + hit.v * V[t.c].normal)
+          .normalized();
   return hit.normal.dot(direction) > 0 ? Vector3f(-normal) : normal;
 }
 
@@ -125,9 +125,8 @@ Colour Shading::mirrored(const Surface& surface, const Vector3f& at, const Vecto
   sum *= lit * fresnel(0.05f, facing);
   const bool outside = scene_.sky.maxCoeff() > 0;
   const Colour around = Colour::Constant(0.4f * luminance(light));
-  const Colour seen = outside ? Colour(around + smooth_step(-0.05f, 0.35f, ray.z()) *
-                                                    (sky(ray) - around))
-                              : around;
+  const Colour seen =
+      outside ? Colour(around + smooth_step(-0.05f, 0.35f, ray.z()) * (sky(ray) - around)) : around;
   return surface.gloss * (sum + 0.6f * fresnel(0.05f, facing) * seen);
 }
 

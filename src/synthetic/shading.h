@@ -36,7 +36,7 @@ class Shading {
 
   const Scene& scene_;
   const LitMeshes& lit_;
-  std::map<const Texture*, MipMap> textures_;  // only looked up
+  std::map<const Texture*, MipMap> textures_;   // only looked up
   std::vector<std::vector<Surface>> surfaces_;  // of thing and material
   float usual_light_ = 1;                       // luminance, mean over all vertices
 };

@@ -132,9 +132,8 @@ std::string frame_json(double timestamp, const FrameTruth& truth, const Scene& s
   }
   for (const PlaneView& view : truth.visible_planes) {
     const auto& p = view.parameters;
-    planes.push_back({{"id", view.plane},
-                      {"plane", {p[0], p[1], p[2], p[3]}},
-                      {"pixels", view.pixels}});
+    planes.push_back(
+        {{"id", view.plane}, {"plane", {p[0], p[1], p[2], p[3]}}, {"pixels", view.pixels}});
   }
   return Json{{"timestamp", timestamp}, {"objects", objects}, {"planes", planes}}.dump();
 }

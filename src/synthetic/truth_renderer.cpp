@@ -14,8 +14,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kNear = 0.02;    // metres; nothing is projected from nearer
-constexpr int kShareGrid = 48;    // rays a side that measure how much of an object is seen
+constexpr double kNear = 0.02;  // metres; nothing is projected from nearer
+constexpr int kShareGrid = 48;  // rays a side that measure how much of an object is seen
 
 // Far beyond the border a lens polynomial may fold back; there the ideal camera serves.
 class WideCamera {
@@ -127,9 +127,12 @@ void cast_pictures(const TruthSources& world, const RayTable& rays, const SE3& T
 FrameTruth render_truth(const TruthSources& world, const Camera& camera, const RayTable& rays,
                         const SE3& T_wc) {
   const cv::Size size(camera.width(), camera.height());
-  FrameTruth truth{cv::Mat::zeros(size, CV_32F),  cv::Mat::zeros(size, CV_32FC3),
-                   cv::Mat::zeros(size, CV_8U),   cv::Mat::zeros(size, CV_16U),
-                   cv::Mat::zeros(size, CV_16U),  {},
+  FrameTruth truth{cv::Mat::zeros(size, CV_32F),
+                   cv::Mat::zeros(size, CV_32FC3),
+                   cv::Mat::zeros(size, CV_8U),
+                   cv::Mat::zeros(size, CV_16U),
+                   cv::Mat::zeros(size, CV_16U),
+                   {},
                    {}};
   cast_pictures(world, rays, T_wc, truth);
 

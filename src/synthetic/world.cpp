@@ -19,9 +19,9 @@ using Eigen::Matrix3f;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr int kTile = 32;          // pixels, a side
-constexpr double kKey = 0.22;      // mean light of a well exposed picture
-constexpr double kMemory = 0.7;    // seconds that the exposure follows behind
+constexpr int kTile = 32;        // pixels, a side
+constexpr double kKey = 0.26;    // mean light of a well exposed picture
+constexpr double kMemory = 0.7;  // seconds that the exposure follows behind
 
 std::vector<Mesh> placed_meshes(const Scene& scene) {
   std::vector<Mesh> meshes;
@@ -78,9 +78,9 @@ struct World::Impl {
   mutable std::mutex rays_mutex;
   mutable std::shared_ptr<const RayTable> rays;
 
-  explicit Impl(Scene given)
+  Impl(Scene given, const std::optional<BakeOptions>& baking)
       : scene(std::move(given)),
-        lit(bake_light(scene, placed_meshes(scene), bake_options(scene))),
+        lit(bake_light(scene, placed_meshes(scene), baking.value_or(bake_options(scene)))),
         caster(lit.meshes),
         planes(scene, lit.meshes),
         shading(scene, lit) {
@@ -169,7 +169,8 @@ struct World::Impl {
   }
 };
 
-World::World(Scene scene) : impl_(std::make_unique<const Impl>(std::move(scene))) {}
+World::World(Scene scene, const std::optional<BakeOptions>& baking)
+    : impl_(std::make_unique<const Impl>(std::move(scene), baking)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 
@@ -185,8 +186,7 @@ cv::Mat World::render_light(const Camera& camera, double t, const RenderOptions&
   const bool by_row = options.readout != 0;
   std::vector<View> views;
   for (int row = 0; row < (by_row ? camera.height() : 1); ++row) {
-    const double delay =
-        by_row ? options.readout * ((row + 0.5) / camera.height() - 0.5) : 0;
+    const double delay = by_row ? options.readout * ((row + 0.5) / camera.height() - 0.5) : 0;
     for (int s = 0; s < samples; ++s) {
       const double open = options.exposure * ((s + 0.5) / samples - 0.5);
       views.push_back(impl_->view_at(t + delay + open, options.T_bc));
@@ -213,9 +213,8 @@ cv::Mat World::render(const Camera& camera, double t, const RenderOptions& optio
 }
 
 FrameTruth World::truth(const Camera& camera, const SE3& T_wc) const {
-  return render_truth(
-      {impl_->scene, impl_->caster, impl_->shading, impl_->planes, impl_->label_of}, camera,
-      *impl_->rays_of(camera), T_wc);
+  return render_truth({impl_->scene, impl_->caster, impl_->shading, impl_->planes, impl_->label_of},
+                      camera, *impl_->rays_of(camera), T_wc);
 }
 
 Camera default_camera(SceneKind kind, int width, int height, bool distorted) {

@@ -18,10 +18,10 @@
 namespace cairn {
 
 struct RenderOptions {
-  int samples = 4;            ///< rays a pixel
-  double exposure = 0.008;    ///< seconds that the shutter is open, around t: motion blur
-  double readout = 0;         ///< seconds from the first to the last row: rolling shutter
-  SE3 T_bc;                   ///< the camera in the frame that follows the path (of a stereo rig)
+  int samples = 4;          ///< rays a pixel
+  double exposure = 0.008;  ///< seconds that the shutter is open, around t: motion blur
+  double readout = 0;       ///< seconds from the first to the last row: rolling shutter
+  SE3 T_bc;                 ///< the camera in the frame that follows the path (of a stereo rig)
   SensorOptions sensor;
 };
 
@@ -29,8 +29,8 @@ struct RenderOptions {
 /// same bytes, with any number of threads.
 class World {
  public:
-  /// Lights the scene, which takes some seconds.
-  explicit World(Scene scene);
+  /// Lights the scene, which takes some seconds; with options of one's own perhaps less.
+  explicit World(Scene scene, const std::optional<BakeOptions>& baking = {});
   ~World();
   World(World&&) noexcept;
 

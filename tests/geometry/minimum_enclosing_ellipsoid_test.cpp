@@ -28,8 +28,7 @@ TEST(MinimumEnclosingEllipsoid, RecoversTheEllipsoidThatPointsLieOn) {
     std::vector<Vector3d> points;
     for (int i = 0; i < 4000; ++i) {
       const Vector3d on_sphere = random_vector(sampler).normalized();
-      points.emplace_back(truth.centre +
-                          truth.rotation * truth.semi_axes.cwiseProduct(on_sphere));
+      points.emplace_back(truth.centre + truth.rotation * truth.semi_axes.cwiseProduct(on_sphere));
     }
     const auto found = minimum_enclosing_ellipsoid(points);
     ASSERT_TRUE(found);
@@ -64,8 +63,8 @@ TEST(MinimumEnclosingEllipsoid, OfABoxIsJohns) {
   const Vector3d half(0.3, 1.2, 0.7);
   std::vector<Vector3d> corners;
   for (int i = 0; i < 8; ++i) {
-    corners.emplace_back(half.cwiseProduct(
-        Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    corners.emplace_back(
+        half.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
   }
   const auto found = minimum_enclosing_ellipsoid(corners, 1e-6);
   ASSERT_TRUE(found);

@@ -18,8 +18,9 @@ struct Plan {
   // Counter-clockwise; the first leg runs along +y, the second from its end along +x.
   std::vector<Vector2f> corners() const {
     const float w = width / 2;
-    return {{-w, 0}, {w, 0}, {w, first - width}, {w + second, first - width}, {w + second, first},
-            {-w, first}};
+    return {
+        {-w, 0},    {w, 0}, {w, first - width}, {w + second, first - width}, {w + second, first},
+        {-w, first}};
   }
 };
 
@@ -68,7 +69,9 @@ void add_shell(Layout& layout, const Plan& plan) {
     add_box(board, {0, 0.05f, 0.006f}, {2 * half, 0.1f, 0.012f},
             board.add(plain(Colour::Constant(0.25f), 0.2f)));
     layout.add_surface("skirting", std::move(board), T);
-    layout.add_plane("wall", {{from.x(), from.y(), h}, {from.x(), from.y(), 0}, {to.x(), to.y(), 0},
+    layout.add_plane("wall", {{from.x(), from.y(), h},
+                              {from.x(), from.y(), 0},
+                              {to.x(), to.y(), 0},
                               {to.x(), to.y(), h}});
   }
 }
@@ -82,9 +85,9 @@ void add_doors(Layout& layout, const Plan& plan) {
     const float half = (to - from).norm() / 2;
     for (float x = -half + layout.uniform(1.2f, 2.2f); x < half - 0.8f;
          x += layout.uniform(2.4f, 4.2f)) {
-      layout.add_surface("door", door_mesh(paint),
-                         wall_frame(from, to) *
-                             SE3(Eigen::Quaterniond::Identity(), {double(x), 0, 0}));
+      layout.add_surface(
+          "door", door_mesh(paint),
+          wall_frame(from, to) * SE3(Eigen::Quaterniond::Identity(), {double(x), 0, 0}));
     }
   }
 }
@@ -118,15 +121,15 @@ Scene make_corridor(std::uint64_t seed) {
   layout.add_object(make_model("fire hydrant", layout.seed()),
                     standing({plan.width / 2 + plan.second - 0.3f, plan.first - 0.3f, 0}, 0), 0);
   const double bend = double(plan.first - plan.width / 2);
-  const Route route({{0, 1.0}, {0, bend}, {double(plan.second) - 1.2, bend}}, 0.75,
-                    {0.95, 0.55});
+  const Route route({{0, 1.0}, {0, bend}, {double(plan.second) - 1.2, bend}}, 0.75, {0.95, 0.55});
   const HandMotion hand(seed + 300);
   scene.path = [route, hand](double t) {
     const Eigen::Vector2d at = route.at(t);
     // One looks where one will be soon.
     const double heading = route.heading(t + 0.5) + 0.06 * hand.wander(t, 1, 5);
     const Eigen::Vector3d position(at.x(), at.y(), 1.45 + 0.012 * std::sin(2 * M_PI * 1.8 * t));
-    const Eigen::Vector3d look(std::cos(heading), std::sin(heading), -0.12 + 0.04 * hand.wander(t, 2, 6));
+    const Eigen::Vector3d look(std::cos(heading), std::sin(heading),
+                               -0.12 + 0.04 * hand.wander(t, 2, 6));
     return looking_at(position, position + look, 0.02 * hand.wander(t, 3, 4)) * hand.tremble(t);
   };
   scene.duration = route.duration();

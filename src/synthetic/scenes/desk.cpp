@@ -53,16 +53,17 @@ void pile_books(Layout& layout, Tray& tray, const Table& table) {
     if (!base) base = tray.find(book, layout, 0.8f, 2.4f);
     if (!base) return;
     const float thick = extent(book).max().z();
-    const SE3 T_bo = standing({layout.uniform(-0.01f, 0.01f), layout.uniform(-0.01f, 0.01f), height},
-                              layout.uniform(-0.15f, 0.15f));
+    const SE3 T_bo =
+        standing({layout.uniform(-0.01f, 0.01f), layout.uniform(-0.01f, 0.01f), height},
+                 layout.uniform(-0.15f, 0.15f));
     layout.add_object(std::move(book), *base * T_bo, table.plane);
     height += thick;
   }
 }
 
 void set_table(Layout& layout, const Table& table) {
-  Tray tray(table.centre - Vector3f(table.half.x(), table.half.y(), 0),
-            {2 * table.half.x(), 0, 0}, {0, 2 * table.half.y(), 0});
+  Tray tray(table.centre - Vector3f(table.half.x(), table.half.y(), 0), {2 * table.half.x(), 0, 0},
+            {0, 2 * table.half.y(), 0});
   const float screen_x = layout.uniform(-0.15f, 0.15f);
   const auto turn = [&] { return kToViewer + layout.uniform(-0.15f, 0.15f); };
   put(layout, tray, table, "tv", {screen_x, -0.5f * table.half.y()}, turn());
@@ -101,13 +102,17 @@ void furnish(Layout& layout, Room& room, const Table& table) {
     add_books(layout, T_ws, shelf, board, layout.add_plane("shelf", outline));
   }
   layout.add_surface("shelf", std::move(shelf.mesh), T_ws, room.floor_plane());
-  const int cabinet =
-      stand_at_wall(layout, room, 0, layout.uniform(0.5f, 0.9f), make_model("cabinet", layout.seed()));
+  const int cabinet = stand_at_wall(layout, room, 0, layout.uniform(0.5f, 0.9f),
+                                    make_model("cabinet", layout.seed()));
   lay_things(layout, layout.add_top(cabinet, "cabinet"), {"potted plant", "vase", "bowl", "clock"});
-  // The chair stands at one end, pushed back.
-  layout.add_object(make_model("chair", layout.seed()),
+  // A chair that is lower than the camera, pushed under the table.
+  Model chair = make_model("chair", layout.seed());
+  for (int i = 0; i < 20 && extent(chair).max().z() > 0.95f; ++i) {
+    chair = make_model("chair", layout.seed());
+  }
+  layout.add_object(std::move(chair),
                     standing({table.centre.x() + layout.uniform(-0.5f, 0.5f),
-                              table.centre.y() + table.half.y() + 0.32f, 0},
+                              table.centre.y() + table.half.y() + 0.18f, 0},
                              -kToViewer + layout.uniform(-0.5f, 0.5f)),
                     room.floor_plane());
 }
@@ -141,9 +146,9 @@ Scene make_desk(std::uint64_t seed) {
     const double azimuth = M_PI / 2 + 0.55 * hand.wander(t, 0, 15) + 0.06 * hand.wander(t, 1, 4);
     const double elevation = 0.55 + 0.12 * hand.wander(t, 2, 9);
     const double radius = 1.25 + 0.18 * hand.wander(t, 3, 11);
-    const Eigen::Vector3d target = middle + Eigen::Vector3d(0.14 * hand.wander(t, 4, 8),
-                                                            0.10 * hand.wander(t, 5, 7),
-                                                            0.10 + 0.06 * hand.wander(t, 6, 6));
+    const Eigen::Vector3d target =
+        middle + Eigen::Vector3d(0.14 * hand.wander(t, 4, 8), 0.10 * hand.wander(t, 5, 7),
+                                 0.10 + 0.06 * hand.wander(t, 6, 6));
     const Eigen::Vector3d from(std::cos(azimuth) * std::cos(elevation),
                                std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
     return looking_at(middle + radius * from, target, 0.05 * hand.wander(t, 7, 6)) *

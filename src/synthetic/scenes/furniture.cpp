@@ -16,8 +16,8 @@ Shelf make_shelf(Layout& layout, float width, float height, int boards) {
                             : plain(Colour::Constant(layout.uniform(0.5f, 0.75f)), 0.2f);
   const auto side = shelf.mesh.add(wood);
   for (const float end : {-1.f, 1.f}) {
-    add_box(shelf.mesh, {0, end * (width - kThick) / 2, height / 2},
-            {shelf.depth, kThick, height}, side);
+    add_box(shelf.mesh, {0, end * (width - kThick) / 2, height / 2}, {shelf.depth, kThick, height},
+            side);
   }
   add_box(shelf.mesh, {-shelf.depth / 2 + 0.004f, 0, height / 2}, {0.008f, width, height}, side);
   for (int i = 0; i < boards; ++i) {

@@ -117,7 +117,8 @@ void Room::add_window(int wall, float x, float y, float width, float height,
   view.emission = 0.9f * daylight;
   // The picture of the world outside, as large as the pane.
   auto scaled = std::make_shared<Texture>(*view.texture);
-  scaled->texels_per_metre *= view_size.x() / std::max(width, height * view_size.x() / view_size.y());
+  scaled->texels_per_metre *=
+      view_size.x() / std::max(width, height * view_size.x() / view_size.y());
   view.texture = scaled;
   add_picture(pane, {x - w, y + h, 0.012f}, {width, 0, 0}, {0, -height, 0}, pane.add(view));
   layout_.add_surface("window", std::move(pane), T);

@@ -42,8 +42,8 @@ int Layout::add_surface(const std::string& label, Mesh mesh, const SE3& T_wo,
 }
 
 int Layout::add_object(Model model, const SE3& T_wo, std::optional<int> supported_by) {
-  static constexpr std::string_view kNoCocoClass[] = {
-      "shelf", "cabinet", "tree", "door", "window", "poster", "lamp", "floor lamp"};
+  static constexpr std::string_view kNoCocoClass[] = {"shelf",  "cabinet", "tree", "door",
+                                                      "window", "poster",  "lamp", "floor lamp"};
   const bool known = std::ranges::count(kNoCocoClass, std::string_view(model.class_name)) == 0;
   scene_.things.push_back({std::move(model), T_wo, known, supported_by});
   return int(scene_.things.size()) - 1;
@@ -75,8 +75,8 @@ int Layout::add_top(int thing, const std::string& label) {
   cv::convexHull(points, hull, false);
   std::vector<Vector3f> outline;
   for (const auto& corner : hull) {
-    outline.push_back((body.T_wo * Vector3d(double(corner.x), double(corner.y), double(top)))
-                          .cast<float>());
+    outline.push_back(
+        (body.T_wo * Vector3d(double(corner.x), double(corner.y), double(top))).cast<float>());
   }
   int plane = add_plane(label, outline);
   if (scene_.planes.back().normal.z() < 0) {

@@ -16,8 +16,8 @@ Route::Route(std::vector<Vector2d> corners, double radius, const Speed& speed) :
     constexpr int kPieces = 24;
     for (int k = 0; k <= kPieces; ++k) {
       const double a = double(k) / kPieces;
-      points_.push_back((1 - a) * (1 - a) * (corners[i] - radius * in) + 2 * a * (1 - a) * corners[i] +
-                        a * a * (corners[i] + radius * out));
+      points_.push_back((1 - a) * (1 - a) * (corners[i] - radius * in) +
+                        2 * a * (1 - a) * corners[i] + a * a * (corners[i] + radius * out));
     }
   }
   points_.push_back(corners.back());

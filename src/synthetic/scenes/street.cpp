@@ -14,12 +14,12 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float kPitch = 64;        // metres from street to street
-constexpr float kRoad = 5.2f;       // half the width of a road
-constexpr float kHouseLine = 8;     // from the middle of the road to the houses
+constexpr float kPitch = 64;     // metres from street to street
+constexpr float kRoad = 5.2f;    // half the width of a road
+constexpr float kHouseLine = 8;  // from the middle of the road to the houses
 constexpr float kHouse = 12, kDepth = 9;
 constexpr float kKerb = 0.13f;
-constexpr double kLane = 2;         // from the middle of the road
+constexpr double kLane = 2;  // from the middle of the road
 
 // Crossings that the car passes, in units of the pitch.
 std::vector<Vector2d> crossings(Layout& layout) {
@@ -85,12 +85,12 @@ void add_house(Layout& layout, const Vector2f& left, const Vector2f& right, cons
   const Vector3f front_eaves = base + height * up - eaves * back - 0.2f * up;
   add_quad(mesh, front_eaves, kHouse * r, ridge - front_eaves, roof);
   add_quad(mesh, front_eaves, ridge - front_eaves, kHouse * r, roof);  // from below
-  for (const float x : {0.f, kHouse}) {  // gables
+  for (const float x : {0.f, kHouse}) {                                // gables
     const auto first = std::uint32_t(mesh.vertices.size());
     const Vector3f n = x == 0 ? Vector3f(-r) : r;
-    for (const Vector3f& p : {Vector3f(base + height * up + x * r),
-                              Vector3f(base + height * up + x * r + kDepth * back),
-                              Vector3f(ridge + x * r)}) {
+    for (const Vector3f& p :
+         {Vector3f(base + height * up + x * r),
+          Vector3f(base + height * up + x * r + kDepth * back), Vector3f(ridge + x * r)}) {
       mesh.vertices.push_back({p, n, {0.2f, 0.1f}});
     }
     const bool turn = x == 0;
@@ -98,8 +98,8 @@ void add_house(Layout& layout, const Vector2f& left, const Vector2f& right, cons
     mesh.triangles.push_back({first, first + (turn ? 2u : 1u), first + (turn ? 1u : 2u), wall});
   }
   layout.add_surface("building", std::move(mesh));
-  layout.add_plane("building", {base, base + kHouse * r, base + kHouse * r + height * up,
-                                base + height * up});
+  layout.add_plane("building",
+                   {base, base + kHouse * r, base + kHouse * r + height * up, base + height * up});
 }
 
 // Pavement and houses around one block whose corner next to the crossing is `origin`.
@@ -149,9 +149,9 @@ void line_street(Layout& layout, const Vector2d& from, const Vector2d& to, int r
                         road);
     }
     for (double s = 9; s < length - 9; s += double(layout.uniform(14, 20))) {
-      layout.add_object(make_model("tree", layout.seed()),
-                        standing(place(s, double(kRoad) + 0.7, double(kKerb)), layout.uniform(0, 6)),
-                        {});
+      layout.add_object(
+          make_model("tree", layout.seed()),
+          standing(place(s, double(kRoad) + 0.7, double(kKerb)), layout.uniform(0, 6)), {});
       Mesh pole;
       const auto steel = pole.add(plain(Colour::Constant(0.16f), 0.4f));
       add_cylinder(pole, {0, 0, 0}, 0.07f, 0.05f, 6, 10, steel);
@@ -188,8 +188,8 @@ AreaLight sun(Layout& layout) {
   const Vector3f u = Vector3f::UnitZ().cross(to).normalized();
   light.u = kHalf * u;
   light.v = kHalf * u.cross(to);  // u x v = -to
-  light.radiance = kStrength * float(M_PI) * kFar * kFar / (4 * kHalf * kHalf) *
-                   Colour(1.0f, 0.93f, 0.82f);
+  light.radiance =
+      kStrength * float(M_PI) * kFar * kFar / (4 * kHalf * kHalf) * Colour(1.0f, 0.93f, 0.82f);
   return light;
 }
 

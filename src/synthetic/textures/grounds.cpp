@@ -10,8 +10,8 @@ namespace {
 constexpr int kSide = 1024;
 const cv::Size kSize(kSide, kSide);
 
-const cv::Vec3f kWoods[] = {{92, 138, 180}, {58, 92, 134}, {116, 160, 196}, {44, 66, 98},
-                            {80, 118, 152}};
+const cv::Vec3f kWoods[] = {
+    {92, 138, 180}, {58, 92, 134}, {116, 160, 196}, {44, 66, 98}, {80, 118, 152}};
 
 cv::Vec3f wood_colour(cv::RNG& random) {
   return kWoods[random.uniform(0, 5)] * random.uniform(0.9f, 1.1f);

@@ -75,8 +75,8 @@ void write_text(Canvas& canvas, const cv::Rect& where, int height, const cv::Vec
     int x = where.x;
     while (true) {
       const std::string text = word(random);
-      const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, thickness, nullptr)
-                            .width;
+      const int width =
+          cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, thickness, nullptr).width;
       if (x + width > where.x + where.width) break;
       // Drawn on eight bits, because only there lines are smooth.
       const cv::Rect box = cv::Rect(x - 2, y - height - 4, width + 6, height * 2 + 4) &

@@ -84,7 +84,8 @@ Texture wallpaper(cv::RNG& random) {
       }
       for (int i = 0; i < petals; ++i) {
         const double angle = 2 * CV_PI * i / petals;
-        const cv::Point tip(int(length * 0.6 * std::cos(angle)), int(length * 0.6 * std::sin(angle)));
+        const cv::Point tip(int(length * 0.6 * std::cos(angle)),
+                            int(length * 0.6 * std::sin(angle)));
         cv::ellipse(canvas, at + tip, {length / 2, length / 5}, angle * 180 / CV_PI, 0, 360,
                     scalar(ink), cv::FILLED);
       }
@@ -105,8 +106,8 @@ Texture facade(cv::RNG& random) {
                                     muted(random, 120, 215, 0.14f), 0.035f);
   // Rain has run down the wall.
   darken(canvas, noise(kSize, 64, 4, 3, 0.7, random), 0.045f);
-  const cv::Vec3f frame = random.uniform(0, 3) == 0 ? muted(random, 50, 90, 0.15f)
-                                                     : muted(random, 200, 235, 0.03f);
+  const cv::Vec3f frame =
+      random.uniform(0, 3) == 0 ? muted(random, 50, 90, 0.15f) : muted(random, 200, 235, 0.03f);
   const int columns = random.uniform(3, 7), storeys = 4;
   const float wide = random.uniform(0.9f, 1.5f), tall = random.uniform(1.3f, 1.8f);
   const bool shop = random.uniform(0, 2) == 0;
@@ -176,9 +177,8 @@ Texture poster(cv::RNG& random) {
     if (random.uniform(0, 2) == 0) {
       cv::circle(inside, at, size_px, ink, cv::FILLED);
     } else {
-      const std::vector<cv::Point> corners = {
-          at, at + cv::Point(size_px, random.uniform(-60, 120)),
-          at + cv::Point(random.uniform(-120, 60), size_px)};
+      const std::vector<cv::Point> corners = {at, at + cv::Point(size_px, random.uniform(-60, 120)),
+                                              at + cv::Point(random.uniform(-120, 60), size_px)};
       cv::fillConvexPoly(inside, corners, ink);
     }
   }
