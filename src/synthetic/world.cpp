@@ -38,9 +38,9 @@ std::vector<Mesh> placed_meshes(const Scene& scene) {
 BakeOptions bake_options(const Scene& scene) {
   BakeOptions options;
   if (scene.sky.maxCoeff() > 0) {  // outside, where things are larger and farther away
-    options.cell = 3;
-    options.finest_cell = 0.08f;
-    options.contrast = 0.12f;
+    options.cell = 4;
+    options.finest_cell = 0.2f;
+    options.contrast = 0.2f;
     options.openness = 2;
   }
   return options;

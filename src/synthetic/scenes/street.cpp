@@ -142,10 +142,10 @@ void line_street(Layout& layout, const Vector2d& from, const Vector2d& to, int r
       if (layout.chance(0.25f)) continue;
       Model car = make_model(layout.chance(0.06f) ? "truck" : "car", layout.seed());
       const Eigen::Vector3f size = extent(car).sizes();
-      if (size.y() > 2.1f || size.x() > 5.6f) continue;
+      if (size.y() > 2.35f || size.x() > 6) continue;
       const float turn = (side > 0 ? 0 : float(M_PI)) + layout.uniform(-0.03f, 0.03f);
       layout.add_object(std::move(car),
-                        standing(place(s, double(kRoad - 0.25f - size.y() / 2), 0), heading + turn),
+                        standing(place(s, double(kRoad - 0.15f - size.y() / 2), 0), heading + turn),
                         road);
     }
     for (double s = 9; s < length - 9; s += double(layout.uniform(14, 20))) {
