@@ -13,7 +13,7 @@ namespace {
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
 struct Parts {
-  std::uint32_t paint, glass, under, trim, chrome, lamp, lens, red, plate;
+  std::uint32_t paint, glass, under, trim, chrome, lamp, lens, red, brake, plate;
 };
 
 Eigen::Vector3f mirrored(const Eigen::Vector3f& p, float side) {
@@ -110,7 +110,7 @@ void add_rear(Assembly& car, const BodyShape& body, const Parts& parts, Dice& di
   const float tail = -body.length / 2, w = body.half_width(body.length);
   const float lamp =
       body.type == BodyType::kSaloon ? dice.uniform(0.26f, 0.4f) : dice.uniform(0.12f, 0.3f);
-  add_lamps(car, body, false, lamp, parts.red, parts.lens);
+  add_lamps(car, body, false, lamp, parts.red, parts.brake);
   const float low = body.at(body.length, BodyShape::kWaist).z();
   const float plate_z = dice.chance(0.5f) ? low + 0.02f : body.clearance + 0.3f;
   car.add(box({0.012f, 0.52f, 0.115f}, {.radius = 0.004f}), parts.plate,
@@ -166,6 +166,7 @@ Model make_car(Dice& dice) {
   parts.lamp = car.material({.colour = srgb(0x7d878d), .gloss = 0.9f, .shininess = 90});
   parts.lens = car.material({.colour = srgb(0xe6eaec), .gloss = 0.9f, .shininess = 90});
   parts.red = car.material({.colour = srgb(0xa3121a), .gloss = 0.7f, .shininess = 80});
+  parts.brake = car.material({.colour = srgb(0xd8202a), .gloss = 0.7f, .shininess = 80});
   parts.plate = car.material({.colour = Colour::Ones(), .texture = number_plate(dice)});
   const bool clad = type == BodyType::kEstate && dice.chance(0.6f);
   car.add(make_body(body), {parts.paint, parts.glass, parts.under, parts.trim,

@@ -166,7 +166,7 @@ Model make_backpack(Dice& dice) {
   const auto zip = [&](float z, float wide, float x, float drop) {
     Path path;
     for (const float t : evenly(-1, 1, 13))
-      path.emplace_back(x - 0.03f * t * t, t * wide, z - drop * t * t);
+      path.emplace_back(x - 0.012f * t * t, t * wide, z - drop * t * t);
     backpack.add(tube(path, 0.004f, 6), dark);
   };
   zip(0.48f * height, 0.34f * width, deep / 2 + 0.064f, 0.06f);
