@@ -16,7 +16,7 @@ const Eigen::Vector3f kAcross = Eigen::Vector3f::UnitY();
 // Three or four bars around an opening of the given size, which starts at `z`.
 void add_frame(Assembly& thing, float width, float height, float z, float bar, float deep,
                bool sill, std::uint32_t material) {
-  const BoxOptions edge{.radius = 0.004f, .cell = 0.15f};
+  const BoxOptions edge{.radius = 0.004f};
   for (const float side : {-1.0f, 1.0f})
     thing.add(box({deep, bar, height + bar + (sill ? bar : 0)}, edge), material,
               at(0, side * (width + bar) / 2, z - (sill ? bar : 0)));
@@ -49,7 +49,7 @@ Model make_door(Dice& dice) {
   const auto metal = door.material({.colour = dice.colour(kMetals), .gloss = 0.6f});
   const auto glass = door.material({.colour = srgb(0x9fb2ba), .gloss = 0.8f});
   add_frame(door, width, height, 0, bar, 0.09f, false, frame);
-  door.add(box({leaf, width, height - 0.005f}, {.cell = 0.12f}), surface, at(0.015f, 0, 0.005f));
+  door.add(box({leaf, width, height - 0.005f}), surface, at(0.015f, 0, 0.005f));
   const float front = 0.015f + leaf / 2;
   const int kind = dice.below(3);
   const int panels = 2 + dice.below(2);
@@ -57,11 +57,11 @@ Model make_door(Dice& dice) {
     for (int i = 0; i < panels; ++i) {
       const float tall = (height - 0.3f) / float(panels);
       const float z = 0.15f + float(i) * tall;
-      door.add(box({0.016f, width - 0.26f, tall - 0.1f}, {.radius = 0.007f, .cell = 0.12f}),
-               surface, at(front, 0, z + 0.05f));
+      door.add(box({0.016f, width - 0.26f, tall - 0.1f}, {.radius = 0.007f}), surface,
+               at(front, 0, z + 0.05f));
     }
   if (kind == 1)
-    door.add(box({0.004f, 0.18f * width, 0.55f * height}, {.cell = 0.12f}), glass,
+    door.add(box({0.004f, 0.18f * width, 0.55f * height}), glass,
              at(front, -side * 0.05f, 0.35f * height));
   add_lever(door, side * (width / 2 - 0.07f), 1.03f, front, -side, metal);
   const float plate = dice.uniform(0.1f, 0.16f);
@@ -103,16 +103,15 @@ Model make_window(Dice& dice) {
                                       .gloss = 0.3f,
                                       .emission = Colour::Constant(dice.uniform(0.8f, 1.2f))});
   add_frame(window, width, height, bar, bar, 0.07f, true, frame);
-  window.add(box({0.01f, width, height}, {.cell = 0.2f}), panes, at(0, 0, bar));
+  window.add(box({0.01f, width, height}), panes, at(0, 0, bar));
   const int columns = width > 1.2f ? 2 + dice.below(2) : 1 + dice.below(2);
   for (int i = 1; i < columns; ++i)
-    window.add(box({0.05f, 0.05f, height}, {.radius = 0.004f, .cell = 0.2f}), frame,
+    window.add(box({0.05f, 0.05f, height}, {.radius = 0.004f}), frame,
                at(0, width * (float(i) / float(columns) - 0.5f), bar));
   if (dice.chance(0.4f))
-    window.add(box({0.04f, width, 0.03f}, {.radius = 0.004f, .cell = 0.2f}), frame,
+    window.add(box({0.04f, width, 0.03f}, {.radius = 0.004f}), frame,
                at(0, 0, bar + 0.65f * height));
-  window.add(box({0.2f, width + 4 * bar, 0.03f}, {.radius = 0.006f, .cell = 0.1f}), frame,
-             at(0.07f, 0, -0.03f));
+  window.add(box({0.2f, width + 4 * bar, 0.03f}, {.radius = 0.006f}), frame, at(0.07f, 0, -0.03f));
   return std::move(window).finish();
 }
 
@@ -121,7 +120,7 @@ Model make_poster(Dice& dice) {
   const float height = dice.uniform(0.4f, 1.0f), width = height * dice.uniform(0.65f, 0.8f);
   const auto print = poster.material(
       {.colour = Colour::Ones(), .texture = poster_print(width, height, dice), .gloss = 0.08f});
-  poster.add(box({0.003f, width, height}, {.cell = 0.1f}), print);
+  poster.add(box({0.003f, width, height}), print);
   if (dice.chance(0.6f)) {  // framed
     const float bar = dice.uniform(0.012f, 0.03f);
     const auto frame = poster.material(

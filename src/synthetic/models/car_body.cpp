@@ -165,7 +165,10 @@ std::vector<float> stations(const BodyShape& body) {
   for (const float v : evenly(body.cowl, body.roof_from, 5)) s.push_back(v);
   for (const float v : evenly(body.roof_from, body.roof_to, 9)) s.push_back(v);
   for (const float v : evenly(body.roof_to, body.rear_glass_to, 5)) s.push_back(v);
-  for (const float v : evenly(0.1f * l, body.cowl, 4)) s.push_back(v);
+  // Where the curves along the body have their knots, details lie on it exactly.
+  for (const float share : {0.012f, 0.06f, 0.12f, 0.25f, 0.6f, 0.75f, 0.9f, 0.985f})
+    s.push_back(share * l);
+  for (const float share : {0.33f, 0.5f, 0.75f}) s.push_back(share * body.cowl);
   const float arch = body.wheel_radius + 0.05f;
   for (const float axle : {body.front_axle, body.rear_axle}) {
     for (const float angle : evenly(0, 3.14159265f, 11)) s.push_back(axle - arch * std::cos(angle));

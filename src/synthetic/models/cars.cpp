@@ -13,7 +13,7 @@ namespace {
 const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
 
 struct Parts {
-  std::uint32_t paint, glass, under, trim, chrome, lamp, red, plate;
+  std::uint32_t paint, glass, under, trim, chrome, lamp, lens, red, brake, plate;
 };
 
 Eigen::Vector3f mirrored(const Eigen::Vector3f& p, float side) {
@@ -24,7 +24,7 @@ Eigen::Vector3f mirrored(const Eigen::Vector3f& p, float side) {
 void add_seam(Assembly& car, const Path& path, float side, std::uint32_t material) {
   Path moved;
   for (const Eigen::Vector3f& p : path) moved.push_back(mirrored(p, side));
-  car.add(tube(moved, 0.006f, 5), material);
+  car.add(tube(moved, 0.0045f, 5), material);
 }
 
 void add_doors(Assembly& car, const BodyShape& body, const Parts& parts) {
@@ -56,21 +56,28 @@ void add_doors(Assembly& car, const BodyShape& body, const Parts& parts) {
 }
 
 // From the flat face at the nose or the tail around to where make_body() goes on.
-void add_lamps(Assembly& car, const BodyShape& body, bool front, float width, std::uint32_t lamp) {
+void add_lamps(Assembly& car, const BodyShape& body, bool front, float width, std::uint32_t lamp,
+               std::uint32_t lens) {
   const float s = front ? 0 : body.length, out = front ? 1.0f : -1.0f;
-  const float low = body.at(s, BodyShape::kWaist).z() + 0.004f;
-  const float high = body.at(s, front ? BodyShape::kShoulder : BodyShape::kBelt).z() - 0.004f;
+  const float low = body.at(s, BodyShape::kWaist).z() + 0.008f;
+  const float high = body.at(s, front ? BodyShape::kShoulder : BodyShape::kBelt).z() - 0.008f;
   for (const float side : {-1.0f, 1.0f}) {
-    const float y = side * (body.half_width(s) - width / 2 - 0.004f);
+    // Inside of the body's edge, whose light would be lost under the lamp.
+    const float y = side * (body.half_width(s) - width / 2 - 0.025f);
     car.add(box({0.03f, width, high - low}, {.radius = 0.012f, .steps = 2}), lamp,
-            at(out * (body.length / 2 - 0.007f), y, low));
+            at(out * (body.length / 2 - 0.01f), y, low));
+    const float radius = 0.36f * std::min(high - low, 0.5f * width);
+    for (const float across : {-0.23f, 0.23f})
+      car.add(extrude(circle(radius, 16), 0.006f, 0.002f), lens,
+              at(out * (body.length / 2 + 0.003f), y + across * width, 0.5f * (low + high)) *
+                  turned(Eigen::Vector3f::UnitY(), out * 90));
   }
 }
 
 void add_front(Assembly& car, const BodyShape& body, const Parts& parts, Dice& dice) {
   const float nose = body.length / 2, w = body.half_width(0);
   const float lamp = dice.uniform(0.26f, 0.36f);
-  add_lamps(car, body, true, lamp, parts.lamp);
+  add_lamps(car, body, true, lamp, parts.lamp, parts.lens);
   const float top = body.at(0, BodyShape::kShoulder).z();
   const float grille_h = dice.uniform(0.1f, 0.24f), grille_w = 2 * (w - lamp) - 0.06f;
   const float grille_z = top - grille_h;
@@ -93,8 +100,8 @@ void add_front(Assembly& car, const BodyShape& body, const Parts& parts, Dice& d
           at(nose + 0.006f, 0, std::min(grille_z - 0.13f, intake_z + 0.05f)));
   for (const float side : {-1.0f, 1.0f}) {  // the gaps beside the bonnet
     Path gap;
-    for (const float s : evenly(0.04f * body.length, body.cowl - 0.02f, 7))
-      gap.push_back(body.at(s, BodyShape::kGlassFoot));
+    for (const float s : evenly(0.065f * body.length, body.cowl - 0.02f, 24))
+      gap.push_back(0.6f * body.at(s, BodyShape::kGlassTop) + 0.4f * body.at(s, BodyShape::kRail));
     add_seam(car, gap, side, parts.trim);
   }
 }
@@ -103,7 +110,7 @@ void add_rear(Assembly& car, const BodyShape& body, const Parts& parts, Dice& di
   const float tail = -body.length / 2, w = body.half_width(body.length);
   const float lamp =
       body.type == BodyType::kSaloon ? dice.uniform(0.26f, 0.4f) : dice.uniform(0.12f, 0.3f);
-  add_lamps(car, body, false, lamp, parts.red);
+  add_lamps(car, body, false, lamp, parts.red, parts.brake);
   const float low = body.at(body.length, BodyShape::kWaist).z();
   const float plate_z = dice.chance(0.5f) ? low + 0.02f : body.clearance + 0.3f;
   car.add(box({0.012f, 0.52f, 0.115f}, {.radius = 0.004f}), parts.plate,
@@ -156,8 +163,10 @@ Model make_car(Dice& dice) {
   parts.under = car.material({.colour = Colour::Constant(0.008f)});
   parts.trim = car.material({.colour = Colour::Constant(0.015f), .gloss = 0.15f});
   parts.chrome = car.material({.colour = srgb(0xc4c7ca), .gloss = 0.8f, .shininess = 80});
-  parts.lamp = car.material({.colour = srgb(0xd5dade), .gloss = 0.9f, .shininess = 90});
+  parts.lamp = car.material({.colour = srgb(0x7d878d), .gloss = 0.9f, .shininess = 90});
+  parts.lens = car.material({.colour = srgb(0xe6eaec), .gloss = 0.9f, .shininess = 90});
   parts.red = car.material({.colour = srgb(0xa3121a), .gloss = 0.7f, .shininess = 80});
+  parts.brake = car.material({.colour = srgb(0xd8202a), .gloss = 0.7f, .shininess = 80});
   parts.plate = car.material({.colour = Colour::Ones(), .texture = number_plate(dice)});
   const bool clad = type == BodyType::kEstate && dice.chance(0.6f);
   car.add(make_body(body), {parts.paint, parts.glass, parts.under, parts.trim,

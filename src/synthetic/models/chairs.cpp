@@ -71,7 +71,7 @@ Model office_chair(Dice& dice) {
                       {0.02f, y, seat_z + 0.005f},
                       {0.0f, y, seat_z + 0.22f}};
       chair.add(tube(round_corners(post, 0.05f), 0.014f), frame);
-      chair.add(box({0.25f, 0.06f, 0.03f}, {.radius = 0.012f, .steps = 2, .cell = 0.06f}), frame,
+      chair.add(box({0.25f, 0.06f, 0.03f}, {.radius = 0.012f, .steps = 2}), frame,
                 at(0.02f, y, seat_z + 0.21f));
     }
   }
@@ -103,8 +103,7 @@ Model four_legged_chair(Dice& dice) {
     chair.add(sweep(back, section), frame);
     chair.add(box({deep - 2 * leg, 0.02f, 0.05f}), frame, at(0, side * y, seat_z - 0.06f));
   }
-  chair.add(box({deep, width, 0.02f}, {.radius = 0.005f, .cell = 0.08f}), frame,
-            at(0, 0, seat_z - 0.01f));
+  chair.add(box({deep, width, 0.02f}, {.radius = 0.005f}), frame, at(0, 0, seat_z - 0.01f));
   if (dice.chance(0.6f))
     chair.add(cushion({deep * 0.96f, width * 0.96f, 0.045f}, 0.02f, 0.008f), soft,
               at(0, 0, seat_z + 0.005f));

@@ -34,13 +34,12 @@ void add_stand(Assembly& tv, float width, float gap, float screen_height, std::u
   }
   const float plate = 0.012f;
   if (kind == 0)
-    tv.add(box({deep, width * dice.uniform(0.34f, 0.5f), plate}, {.radius = 0.004f, .cell = 0.04f}),
-           plastic);
+    tv.add(box({deep, width * dice.uniform(0.34f, 0.5f), plate}, {.radius = 0.004f}), plastic);
   else
     tv.add(extrude(ellipse(deep * 0.55f, width * dice.uniform(0.2f, 0.26f), 32), plate, 0.003f),
            plastic);
   const float neck = gap + 0.35f * screen_height;
-  tv.add(box({0.02f, dice.uniform(0.05f, 0.1f), neck}, {.radius = 0.005f, .cell = 0.08f}), plastic,
+  tv.add(box({0.02f, dice.uniform(0.05f, 0.1f), neck}, {.radius = 0.005f}), plastic,
          at(-0.028f, 0, plate - 0.002f));
 }
 
@@ -62,7 +61,7 @@ Print phone_content(float width, float height, Dice& dice) {
 
 Model make_tv(Dice& dice) {
   Assembly tv("tv");
-  const float width = dice.chance(0.7f) ? dice.uniform(0.46f, 0.66f) : dice.uniform(0.7f, 1.1f);
+  const float width = dice.chance(0.75f) ? dice.uniform(0.46f, 0.66f) : dice.uniform(0.7f, 1.1f);
   const float height = width / (dice.chance(0.8f) ? 16.0f / 9 : 16.0f / 10);
   const float thick = dice.uniform(0.012f, 0.035f), bezel = dice.uniform(0.006f, 0.018f);
   const float chin = bezel + (dice.chance(0.4f) ? dice.uniform(0.005f, 0.02f) : 0);
@@ -70,12 +69,12 @@ Model make_tv(Dice& dice) {
   const Colour colour = dice.chance(0.75f) ? srgb(0x18191b) : dice.colour(kPlastics);
   const auto plastic = tv.material({.colour = colour, .gloss = 0.25f});
 
-  tv.add(box({thick, width + 2 * bezel, height + bezel + chin}, {.radius = 0.004f, .cell = 0.04f}),
-         plastic, at(0, 0, gap));
+  tv.add(box({thick, width + 2 * bezel, height + bezel + chin}, {.radius = 0.004f}), plastic,
+         at(0, 0, gap));
   tv.add(cushion({0.03f, 0.55f * width, 0.6f * height}, 0.012f, 0.01f), plastic,
          at(-thick / 2 - 0.006f, 0, gap + 0.2f * height));
   const auto screen = tv.material(screen_material(screen_content(width, height, dice), dice));
-  tv.add(box({0.002f, width, height}, {.cell = 0.04f}), screen, at(thick / 2, 0, gap + chin));
+  tv.add(box({0.002f, width, height}), screen, at(thick / 2, 0, gap + chin));
   add_stand(tv, width, gap, height, plastic, dice);
   return std::move(tv).finish();
 }
@@ -91,7 +90,7 @@ Model make_laptop(Dice& dice) {
   const auto dark = laptop.material({.colour = Colour::Constant(0.012f), .gloss = 0.3f});
   const auto pad = laptop.material({.colour = colour * 0.75f, .gloss = 0.2f});
 
-  laptop.add(box({deep, width, thick}, {.radius = 0.004f, .cell = 0.04f}), shell);
+  laptop.add(box({deep, width, thick}, {.radius = 0.004f}), shell);
   KeyOptions options{.height = 0.0016f, .gap = 0.003f, .number_pad = width > 0.36f};
   options.colour = dice.chance(0.7f) ? Colour(Colour::Constant(0.02f)) : Colour(colour * 0.7f);
   options.pitch = (options.number_pad ? 0.94f / 22.6f : 0.86f / 15.0f) * width;
@@ -99,23 +98,22 @@ Model make_laptop(Dice& dice) {
   const Keys keys = make_keys(options, dice);
   const float keys_x = -deep / 2 + 0.028f;
   const auto legends = laptop.material({.colour = Colour::Ones(), .texture = keys.legends});
-  laptop.add(box({keys.depth + 0.004f, keys.width + 0.004f, 0.001f}, {.cell = 0.04f}), dark,
+  laptop.add(box({keys.depth + 0.004f, keys.width + 0.004f, 0.001f}), dark,
              at(keys_x + keys.depth / 2, 0, thick - 0.0008f));
   laptop.add(keys.mesh, legends, at(keys_x, -keys.width / 2, thick));
   const float pad_deep = deep / 2 - (keys_x + keys.depth) - 0.02f;
-  laptop.add(box({pad_deep, 0.3f * width, 0.0006f}, {.cell = 0.04f}), pad,
+  laptop.add(box({pad_deep, 0.3f * width, 0.0006f}), pad,
              at(deep / 2 - 0.01f - pad_deep / 2, 0, thick - 0.0002f));
 
   // The lid is built standing, its screen to the front, and leans back about its lower edge.
   const auto lean = at(-deep / 2 + 0.002f, 0, thick) * turned(kAcross, 90 - opened);
   const float high = deep * 0.98f, bezel = dice.uniform(0.006f, 0.014f);
-  laptop.add(box({lid, width, high}, {.radius = 0.0025f, .cell = 0.04f}), shell, lean);
-  laptop.add(box({0.001f, width - 0.006f, high - 0.006f}, {.cell = 0.04f}), dark,
-             lean * at(lid / 2, 0, 0.003f));
+  laptop.add(box({lid, width, high}, {.radius = 0.0025f}), shell, lean);
+  laptop.add(box({0.001f, width - 0.006f, high - 0.006f}), dark, lean * at(lid / 2, 0, 0.003f));
   const float screen_w = width - 2 * bezel, screen_h = high - 2.8f * bezel;
   const auto screen =
       laptop.material(screen_material(screen_content(screen_w, screen_h, dice), dice));
-  laptop.add(box({0.001f, screen_w, screen_h}, {.cell = 0.04f}), screen,
+  laptop.add(box({0.001f, screen_w, screen_h}), screen,
              lean * at(lid / 2 + 0.0006f, 0, 1.8f * bezel));
   return std::move(laptop).finish();
 }
@@ -135,7 +133,7 @@ Model make_cell_phone(Dice& dice) {
     const float screen_l = length - 4 * bezel, screen_w = width - 2 * bezel;
     const auto screen =
         phone.material(screen_material(phone_content(screen_w, screen_l, dice), dice));
-    phone.add(box({screen_l, screen_w, 0.0004f}, {.cell = 0.04f}), screen, at(0, 0, thick));
+    phone.add(box({screen_l, screen_w, 0.0004f}), screen, at(0, 0, thick));
   }
   return std::move(phone).finish();
 }

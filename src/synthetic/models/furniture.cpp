@@ -45,7 +45,7 @@ Model make_couch(Dice& dice) {
   const float seat_z = dice.uniform(0.4f, 0.46f), back_z = dice.uniform(0.74f, 0.9f);
   const float foot = dice.uniform(0.05f, 0.12f), back = 0.2f, soft = dice.uniform(0.14f, 0.18f);
   const int seats = width < 1.8f ? 2 : 3;
-  const BoxOptions round{.radius = 0.04f, .steps = 2, .cell = 0.2f};
+  const BoxOptions round{.radius = 0.04f, .steps = 2};
 
   add_feet(couch, deep / 2 - 0.07f, width / 2 - 0.07f, foot + 0.02f, 0.05f, legs);
   couch.add(box({deep - 0.02f, width - 0.04f, seat_z - soft - foot + 0.03f}, round), cover,
@@ -53,7 +53,7 @@ Model make_couch(Dice& dice) {
   couch.add(box({back, width - 2 * arm + 0.04f, back_z - foot - 0.06f}, round), cover,
             at(-deep / 2 + back / 2, 0, foot));
   for (const float side : {-1.0f, 1.0f})
-    couch.add(box({deep, arm, arm_z - foot}, {.radius = 0.05f, .steps = 2, .cell = 0.2f}), cover,
+    couch.add(box({deep, arm, arm_z - foot}, {.radius = 0.05f, .steps = 2}), cover,
               at(0, side * (width / 2 - arm / 2), foot));
   const float inner = width - 2 * arm, each = inner / float(seats);
   for (int i = 0; i < seats; ++i) {
@@ -87,9 +87,8 @@ Model make_bed(Dice& dice) {
       bed.material(woven(dice.chance(0.6f) ? srgb(0xefece6) : dice.colour(kFabrics), dice));
 
   add_feet(bed, length / 2 - 0.06f, width / 2 - 0.05f, 0.12f, 0.07f, frame);
-  bed.add(box({length, width + 2 * rim, base_z - 0.08f}, {.radius = 0.01f, .cell = 0.1f}), frame,
-          at(0, 0, 0.1f));
-  bed.add(box({0.07f, width + 2 * rim, head_z - 0.05f}, {.radius = 0.015f, .cell = 0.1f}), frame,
+  bed.add(box({length, width + 2 * rim, base_z - 0.08f}, {.radius = 0.01f}), frame, at(0, 0, 0.1f));
+  bed.add(box({0.07f, width + 2 * rim, head_z - 0.05f}, {.radius = 0.015f}), frame,
           at(-length / 2 - 0.03f, 0, 0.05f));
   const float top = base_z + mattress;
   bed.add(cushion({length - 0.03f, width, mattress}, 0.05f, 0.005f), sheet, at(0, 0, base_z));
@@ -117,7 +116,7 @@ Model make_bench(Dice& dice) {
   const auto planks = bench.material(wooden(dice.colour(kWoods), dice));
   const auto iron = bench.material({.colour = dice.colour(kMetals) * 0.5f, .gloss = 0.3f});
   const float plank = 0.85f * seat / float(slats);
-  const BoxOptions edge{.radius = 0.006f, .cell = 0.2f};
+  const BoxOptions edge{.radius = 0.006f};
   for (const float x : evenly(-seat / 2 + plank / 2, seat / 2 - plank / 2, slats))
     bench.add(box({plank, width, 0.035f}, edge), planks, at(x, 0, seat_z - 0.035f));
   const bool with_back = dice.chance(0.8f);
@@ -152,14 +151,12 @@ Model make_shelf(Dice& dice) {
   const Colour colour = dice.chance(0.3f) ? srgb(kWhite) : dice.colour(kWoods);
   const auto boards = shelf.material(wooden(colour, dice));
   const auto back = shelf.material(wooden(colour * 0.7f, dice));
-  const BoxOptions cells{.cell = 0.1f};
   for (const float side : {-1.0f, 1.0f})
-    shelf.add(box({deep, board, height}, cells), boards, at(0, side * (width - board) / 2, 0));
-  shelf.add(box({0.006f, width - board, height - 0.05f}, cells), back,
-            at(-deep / 2 + 0.004f, 0, 0.04f));
+    shelf.add(box({deep, board, height}), boards, at(0, side * (width - board) / 2, 0));
+  shelf.add(box({0.006f, width - board, height - 0.05f}), back, at(-deep / 2 + 0.004f, 0, 0.04f));
   const std::vector<float> levels = evenly(0.05f, height - board, floors);
   for (const float z : levels)
-    shelf.add(box({deep - 0.004f, width - 2 * board, board}, cells), boards, at(0, 0, z));
+    shelf.add(box({deep - 0.004f, width - 2 * board, board}), boards, at(0, 0, z));
   for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
     const float room = levels[i + 1] - levels[i] - board;
     float y = -width / 2 + board + dice.uniform(0.02f, 0.1f);
@@ -193,8 +190,8 @@ Model make_cabinet(Dice& dice) {
       cabinet.material(wooden(dice.chance(0.7f) ? colour : dice.colour(kWoods), dice));
   const auto metal = cabinet.material({.colour = dice.colour(kMetals), .gloss = 0.5f});
   add_feet(cabinet, deep / 2 - 0.05f, width / 2 - 0.05f, foot + 0.01f, 0.045f, metal);
-  cabinet.add(box({deep, width, height - foot - 0.02f}, {.cell = 0.1f}), body, at(0, 0, foot));
-  cabinet.add(box({deep + 0.03f, width + 0.02f, 0.022f}, {.radius = 0.003f, .cell = 0.05f}), body,
+  cabinet.add(box({deep, width, height - foot - 0.02f}), body, at(0, 0, foot));
+  cabinet.add(box({deep + 0.03f, width + 0.02f, 0.022f}, {.radius = 0.003f}), body,
               at(0.015f, 0, height - 0.022f));
   const int columns = std::max(1, int(width / dice.uniform(0.4f, 0.6f)));
   const int rows = dice.chance(0.5f) ? 1 : 2 + dice.below(3);
@@ -203,8 +200,8 @@ Model make_cabinet(Dice& dice) {
     for (int j = 0; j < rows; ++j) {
       const float y = -width / 2 + 0.01f + (float(i) + 0.5f) * wide;
       const float z = foot + 0.015f + float(j) * tall;
-      cabinet.add(box({0.018f, wide - 0.008f, tall - 0.008f}, {.radius = 0.003f, .cell = 0.1f}),
-                  fronts, at(deep / 2 + 0.009f, y, z + 0.004f));
+      cabinet.add(box({0.018f, wide - 0.008f, tall - 0.008f}, {.radius = 0.003f}), fronts,
+                  at(deep / 2 + 0.009f, y, z + 0.004f));
       const bool door = rows == 1;
       const float knob_y = door ? y + (i % 2 == 0 ? 0.4f : -0.4f) * wide : y;
       const float knob_z = door ? z + 0.6f * tall : z + 0.55f * tall;

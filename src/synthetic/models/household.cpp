@@ -93,15 +93,14 @@ Model make_suitcase(Dice& dice) {
   const auto dark = suitcase.material({.colour = Colour::Constant(0.012f), .gloss = 0.2f});
   const auto metal = suitcase.material({.colour = srgb(0xa8abae), .gloss = 0.6f});
   const float z = 2 * wheel;
-  suitcase.add(box({deep, width, height}, {.radius = 0.05f, .steps = 3, .cell = 0.06f}), shell,
-               at(0, 0, z));
-  suitcase.add(box({0.012f, width + 0.004f, height + 0.004f}, {.radius = 0.005f, .cell = 0.1f}),
-               dark, at(0, 0, z - 0.002f));
+  suitcase.add(box({deep, width, height}, {.radius = 0.05f, .steps = 3}), shell, at(0, 0, z));
+  suitcase.add(box({0.012f, width + 0.004f, height + 0.004f}, {.radius = 0.005f}), dark,
+               at(0, 0, z - 0.002f));
   if (hard) {
     const int ribs = 4 + dice.below(4);
     for (const float y : evenly(-0.36f * width, 0.36f * width, ribs))
-      suitcase.add(box({deep + 0.012f, 0.022f, height - 0.14f}, {.radius = 0.006f, .cell = 0.1f}),
-                   shell, at(0, y, z + 0.07f));
+      suitcase.add(box({deep + 0.012f, 0.022f, height - 0.14f}, {.radius = 0.006f}), shell,
+                   at(0, y, z + 0.07f));
   } else {
     suitcase.add(cushion({0.05f, 0.8f * width, 0.36f * height}, 0.018f, 0.008f), shell,
                  at(deep / 2 + 0.01f, 0, z + 0.08f));
@@ -142,7 +141,7 @@ Model make_backpack(Dice& dice) {
       backpack.material({.colour = Colour::Ones(), .texture = fabric(dice.colour(kFabrics), dice)});
   const auto dark = backpack.material({.colour = Colour::Constant(0.015f), .gloss = 0.1f});
   const auto sack = [&](const Eigen::Vector3f& size, float radius) {
-    Mesh mesh = cushion(size, radius, 0.018f);
+    Mesh mesh = cushion(size, radius, 0.01f);
     deform(
         mesh,
         [&](const Eigen::Vector3f& p) {  // narrower and rounder towards the top
@@ -161,13 +160,24 @@ Model make_backpack(Dice& dice) {
   if (dice.chance(0.6f))
     backpack.add(sack({0.06f, 0.66f * width, 0.2f * height}, 0.028f), pocket,
                  at(deep / 2 - 0.005f, 0, 0.56f * height));
-  const auto zip = [&](float z, float wide, float x) {
+  for (const float side : {-1.0f, 1.0f})
+    backpack.add(sack({0.7f * deep, 0.07f, 0.36f * height}, 0.032f), pocket,
+                 at(-0.05f * deep, side * (width / 2 + 0.005f), 0.02f));
+  const auto zip = [&](float z, float wide, float x, float drop) {
     Path path;
-    for (const float t : evenly(-1, 1, 9))
-      path.emplace_back(x - 0.02f * t * t, t * wide, z - 0.035f * t * t);
+    for (const float t : evenly(-1, 1, 13))
+      path.emplace_back(x - 0.012f * t * t, t * wide, z - drop * t * t);
     backpack.add(tube(path, 0.004f, 6), dark);
   };
-  zip(0.5f * height, 0.33f * width, deep / 2 + 0.07f);
+  zip(0.48f * height, 0.34f * width, deep / 2 + 0.064f, 0.06f);
+  // Around the main compartment, from side to side over the top.
+  Path mouth;
+  for (const float t : evenly(-1, 1, 21)) {
+    const float angle = 1.5708f * t, shrink = 1 - 0.2f * std::cos(angle);
+    mouth.emplace_back(0.2f * deep, 1.04f * (width / 2) * std::sin(angle) * shrink / 0.98f,
+                       (0.35f + 0.665f * std::pow(std::max(0.0f, std::cos(angle)), 0.6f)) * height);
+  }
+  backpack.add(tube(mouth, 0.006f, 6), dark);
   const float top = height;
   backpack.add(tube(round_corners({{-0.04f, -0.04f, top - 0.03f},
                                    {-0.04f, -0.04f, top + 0.05f},
@@ -177,13 +187,13 @@ Model make_backpack(Dice& dice) {
                     0.009f),
                dark);
   for (const float side : {-1.0f, 1.0f}) {
-    const float y = side * 0.22f * width, back = -deep / 2;
+    const float y = side * 0.26f * width, back = -deep / 2;
     const Path strap{{back + 0.02f, y, 0.9f * height},
                      {back - 0.03f, y * 1.05f, 0.86f * height},
                      {back - 0.06f, y * 1.2f, 0.6f * height},
                      {back - 0.05f, y * 1.45f, 0.3f * height},
                      {back + 0.02f, y * 1.6f, 0.06f * height}};
-    backpack.add(sweep(smooth(strap, 4), ellipse(0.03f, 0.006f, 10)), cloth);
+    backpack.add(sweep(smooth(strap, 4), ellipse(0.033f, 0.008f, 10)), dark);
   }
   return std::move(backpack).finish();
 }

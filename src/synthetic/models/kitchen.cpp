@@ -38,15 +38,14 @@ Model make_refrigerator(Dice& dice) {
   const float foot = 0.04f, leaf = 0.055f, gap = 0.008f;
   const float side = dice.chance(0.5f) ? 1.0f : -1.0f;
   fridge.add(box({deep - 0.04f, width - 0.04f, foot + 0.01f}), dark, at(-0.02f, 0, 0));
-  fridge.add(box({deep, width, height - foot}, {.radius = 0.006f, .cell = 0.1f}), body,
-             at(0, 0, foot));
+  fridge.add(box({deep, width, height - foot}, {.radius = 0.006f}), body, at(0, 0, foot));
   const float cut = foot + split * (height - foot);
   const float x = deep / 2 + leaf / 2 + 0.006f;
-  fridge.add(box({0.01f, width - 0.03f, height - foot - 0.03f}, {.cell = 0.2f}), dark,
+  fridge.add(box({0.01f, width - 0.03f, height - foot - 0.03f}), dark,
              at(deep / 2 + 0.003f, 0, foot + 0.015f));
   const auto leaf_box = [&](float from, float to) {
-    fridge.add(box({leaf, width - 0.004f, to - from}, {.radius = 0.01f, .steps = 2, .cell = 0.1f}),
-               front, at(x, 0, from));
+    fridge.add(box({leaf, width - 0.004f, to - from}, {.radius = 0.01f, .steps = 2}), front,
+               at(x, 0, from));
   };
   leaf_box(foot + 0.004f, cut - gap);
   leaf_box(cut + gap, height);
@@ -82,12 +81,12 @@ Model make_microwave(Dice& dice) {
     for (const float sy : {-1.0f, 1.0f})
       microwave.add(extrude(circle(0.015f, 10), foot + 0.004f), glass,
                     at(sx * 0.36f * deep, sy * 0.4f * width, 0));
-  microwave.add(box({deep, width, tall}, {.radius = 0.008f, .cell = 0.05f}), body, at(0, 0, foot));
+  microwave.add(box({deep, width, tall}, {.radius = 0.008f}), body, at(0, 0, foot));
   const float door = width - panel - 0.012f, door_y = -width / 2 + 0.006f + door / 2;
-  microwave.add(box({0.02f, door, tall - 0.012f}, {.radius = 0.006f, .cell = 0.05f}), body,
+  microwave.add(box({0.02f, door, tall - 0.012f}, {.radius = 0.006f}), body,
                 at(front + 0.006f, door_y, foot + 0.006f));
-  microwave.add(box({0.004f, 0.82f * door, 0.74f * tall}, {.radius = 0.0015f, .cell = 0.05f}),
-                glass, at(front + 0.015f, door_y - 0.02f * door, foot + 0.13f * tall));
+  microwave.add(box({0.004f, 0.82f * door, 0.74f * tall}, {.radius = 0.0015f}), glass,
+                at(front + 0.015f, door_y - 0.02f * door, foot + 0.13f * tall));
   add_bar_handle(microwave, {front + 0.012f, door_y + 0.46f * door, foot + tall / 2}, 0.66f * tall,
                  true, 0.032f, metal);
   // The panel: a clock and rows of keys.
@@ -109,7 +108,7 @@ Model make_microwave(Dice& dice) {
   keys.disc(0.5f * pw, 0.9f * ph, 0.14f * pw, ink);
   const auto print =
       microwave.material({.colour = Colour::Ones(), .texture = keys.texture(), .gloss = 0.3f});
-  microwave.add(box({0.02f, pw, ph}, {.cell = 0.05f}), print,
+  microwave.add(box({0.02f, pw, ph}), print,
                 at(front + 0.004f, width / 2 - 0.008f - pw / 2, foot + 0.006f));
   return std::move(microwave).finish();
 }
@@ -198,7 +197,7 @@ Model make_remote(Dice& dice) {
   const float thick = dice.uniform(0.016f, 0.022f);
   const Colour colour = dice.colour(kPlastics);
   const auto shell = remote.material({.colour = colour, .gloss = 0.25f});
-  remote.add(box({length, width, thick}, {.radius = 0.007f, .steps = 2, .cell = 0.04f}), shell);
+  remote.add(box({length, width, thick}, {.radius = 0.007f, .steps = 2}), shell);
   const auto soft = remote.material(
       {.colour = Colour::Constant(colour.mean() < 0.2f ? 0.22f : 0.05f), .gloss = 0.1f});
   const auto red = remote.material({.colour = srgb(0xc0202a), .gloss = 0.1f});

@@ -12,7 +12,7 @@ namespace cairn {
 
 // A closed book that lies, its title to be read from the front.
 Model make_book(Dice& dice) {
-  Assembly book("book", Symmetry::kHalfTurn);
+  Assembly book("book");
   const float tall = dice.uniform(0.17f, 0.3f), wide = tall * dice.uniform(0.64f, 0.82f);
   const float thick = dice.uniform(0.012f, 0.05f);
   const bool hard = dice.chance(0.6f);
@@ -29,7 +29,7 @@ Model make_book(Dice& dice) {
       {.colour = Colour::Ones(), .texture = page_edges(tall, thick - 2 * board, dice)});
 
   const Eigen::Vector3f cover(tall, wide, board);
-  const BoxOptions edge{.radius = 0.3f * board, .cell = 0.04f};
+  const BoxOptions edge{.radius = 0.3f * board};
   book.add(box(cover, edge), back);
   book.add(box(cover, edge), front, at(0, 0, thick - board));
   book.add(box({tall - 2 * overhang, wide - overhang - board, thick - 2 * board}), pages,
@@ -79,7 +79,7 @@ Model make_keyboard(Dice& dice) {
     shade(mesh, 35);
     return mesh;
   };
-  keyboard.add(lean(box({deep, wide, thick}, {.radius = 0.003f, .cell = 0.04f})), case_material);
+  keyboard.add(lean(box({deep, wide, thick}, {.radius = 0.003f})), case_material);
   Mesh placed;
   placed.append(keys.mesh, at(back - deep / 2, -keys.width / 2, thick - 0.0005f));
   keyboard.add(lean(placed), legends);

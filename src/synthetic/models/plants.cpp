@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cairn/synthetic/models/assembly.h"
 #include "cairn/synthetic/models/makers.h"
@@ -104,19 +105,45 @@ Model make_potted_plant(Dice& dice) {
 
 namespace {
 
-// A cloud of leaves: a ball with a ragged surface.
-Mesh foliage(float radius, Dice& dice) {
-  Mesh mesh = ball(radius, 14);
-  const Eigen::Vector3f phase(dice.uniform(0, 6), dice.uniform(0, 6), dice.uniform(0, 6));
-  deform(
-      mesh,
-      [&](const Eigen::Vector3f& p) {
-        const Eigen::Vector3f d = (p - radius * kUp) / radius;
-        const float ripple = std::sin(5 * d.x() + phase.x()) * std::sin(5 * d.y() + phase.y()) +
-                             std::sin(9 * d.z() + phase.z()) * std::sin(7 * d.x() + phase.y());
-        return Eigen::Vector3f(radius * (1 + 0.13f * ripple) * d);
-      },
-      80);
+struct Bough {
+  Eigen::Vector3f centre;
+  float radius;
+};
+
+// How far the crown reaches from its middle: to the outermost of the boughs' balls. One surface
+// around all of them, so that none of it lies in another's dark inside.
+float reach(std::span<const Bough> boughs, const Eigen::Vector3f& direction) {
+  float far = 0;
+  for (const Bough& bough : boughs) {
+    const float along = bough.centre.dot(direction);
+    const float off = bough.centre.squaredNorm() - along * along;
+    if (off < bough.radius * bough.radius)
+      far = std::max(far, along + std::sqrt(bough.radius * bough.radius - off));
+  }
+  return far;
+}
+
+// Leaves that stick out of the crown: rhombs that are seen from both sides.
+Mesh loose_leaves(std::span<const Bough> boughs, int count, float size, Dice& dice) {
+  Mesh mesh;
+  const auto random = [&] {
+    return Eigen::Vector3f(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1));
+  };
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3f out = (random() + Eigen::Vector3f(1e-3f, 0, 0)).normalized();
+    const Eigen::Vector3f middle = reach(boughs, out) * dice.uniform(0.9f, 1.06f) * out;
+    const Eigen::Vector3f facing = (out + 0.9f * random()).normalized();
+    const Eigen::Vector3f u = facing.unitOrthogonal() * size * dice.uniform(0.7f, 1.3f);
+    const Eigen::Vector3f v = facing.cross(u) * 0.6f;
+    const Eigen::Vector2f uv(dice.uniform(0, 1), dice.uniform(0, 1));
+    for (const float side : {1.0f, -1.0f}) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const Eigen::Vector2f& c : {Eigen::Vector2f(1, 0), {0, side}, {-1, 0}, {0, -side}})
+        mesh.vertices.push_back({middle + c.x() * u + c.y() * v, side * facing, uv + size * c});
+      mesh.triangles.push_back({first, first + 1, first + 2, 0});
+      mesh.triangles.push_back({first, first + 2, first + 3, 0});
+    }
+  }
   return mesh;
 }
 
@@ -154,20 +181,26 @@ Model make_tree(Dice& dice) {
   for (std::size_t i = 0; i < trunk.size(); ++i)
     scales.push_back(i == 0 ? 1.5f : 1.1f - 0.8f * float(i) / float(trunk.size()));
   tree.add(sweep(trunk, circle(trunk_r, 12), scales, Eigen::Vector3f::UnitY(), 75), bark);
-  const float middle = trunk_h + 0.5f * (height - trunk_h);
-  for (int i = 0; i < 13; ++i) {
-    const float azimuth = 2.39996f * float(i), t = float(i) / 12;
-    const float around = crown * 0.75f * std::sqrt(std::max(0.0f, 1 - (2 * t - 1) * (2 * t - 1)));
-    const Eigen::Vector3f centre(
-        around * std::cos(azimuth), around * std::sin(azimuth),
-        trunk_h + 0.12f * height + t * (height - trunk_h - 0.25f * height));
-    tree.add(foliage(crown * dice.uniform(0.5f, 0.75f), dice), leaves,
-             at(centre.x(), centre.y(), centre.z()));
-    if (i % 3 == 0)
-      tree.add(sweep({{0, 0, 0.8f * trunk_h}, 0.5f * centre + 0.45f * middle * kUp, centre},
-                     circle(0.35f * trunk_r, 6), std::vector<float>{1, 0.8f, 0.4f}),
-               bark);
+  const Eigen::Vector3f middle = (0.5f * (height + trunk_h) + 0.04f * height) * kUp;
+  std::vector<Bough> boughs{{Eigen::Vector3f::Zero(), 0.9f * crown}};
+  const float tall = 0.36f * (height - trunk_h);
+  for (int i = 0; i < 22; ++i) {
+    const float azimuth = 2.39996f * float(i), up = 2 * (float(i) + 0.5f) / 22 - 1;
+    const float around = 0.8f * crown * std::sqrt(1 - up * up);
+    boughs.push_back({{around * std::cos(azimuth), around * std::sin(azimuth), tall * up},
+                      crown * dice.uniform(0.35f, 0.6f)});
   }
+  Mesh mass = ball(1, 36);
+  deform(
+      mass,
+      [&](const Eigen::Vector3f& p) {
+        const Eigen::Vector3f out = (p - kUp).normalized();
+        return Eigen::Vector3f(0.9f * reach(boughs, out) * out);
+      },
+      80);
+  const auto place = at(0, 0, middle.z());
+  tree.add(mass, leaves, place);
+  tree.add(loose_leaves(boughs, 1300, 0.018f * height, dice), leaves, place);
   return std::move(tree).finish();
 }
 

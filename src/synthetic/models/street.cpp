@@ -32,10 +32,10 @@ Model make_traffic_light(Dice& dice) {
   const auto dark = light.material({.colour = Colour::Constant(0.01f)});
   add_pole(light, pole_r, pole_h + 3 * pitch, metal);
   const float x = pole_r + 0.03f + deep / 2;
-  light.add(box({deep, wide, 3.15f * pitch}, {.radius = 0.02f, .steps = 2, .cell = 0.1f}), housing,
+  light.add(box({deep, wide, 3.15f * pitch}, {.radius = 0.02f, .steps = 2}), housing,
             at(x, 0, pole_h));
   if (dice.chance(0.5f))
-    light.add(box({0.01f, 1.5f * wide, 3.6f * pitch}, {.radius = 0.004f, .cell = 0.2f}), dark,
+    light.add(box({0.01f, 1.5f * wide, 3.6f * pitch}, {.radius = 0.004f}), dark,
               at(x, 0, pole_h - 0.22f * pitch));
   for (const float z : {pole_h + 0.6f * pitch, pole_h + 2.5f * pitch})
     light.add(box({0.08f, 0.04f, 0.04f}), metal, at(pole_r + 0.01f, 0, z));

@@ -49,8 +49,7 @@ Model make_dining_table(Dice& dice) {
                                                   .texture = wood(0.5f, 1, colour, dice),
                                                   .gloss = 0.15f}
                                        : Material{.colour = dice.colour(kMetals), .gloss = 0.3f});
-  table.add(box({deep, width, thick}, {.radius = 0.003f, .cell = 0.04f}), top,
-            at(0, 0, height - thick));
+  table.add(box({deep, width, thick}, {.radius = 0.003f}), top, at(0, 0, height - thick));
   const float x = deep / 2 - leg / 2 - set_in, y = width / 2 - leg / 2 - set_in;
   const int kind = dice.below(3);
   for (const float sx : {-1.0f, 1.0f}) {
@@ -66,10 +65,8 @@ Model make_dining_table(Dice& dice) {
   }
   const float apron = dice.uniform(0.06f, 0.1f);
   for (const float side : {-1.0f, 1.0f}) {
-    table.add(box({0.022f, 2 * y, apron}, {.cell = 0.1f}), frame,
-              at(side * x, 0, height - thick - apron));
-    table.add(box({2 * x, 0.022f, apron}, {.cell = 0.1f}), frame,
-              at(0, side * y, height - thick - apron));
+    table.add(box({0.022f, 2 * y, apron}), frame, at(side * x, 0, height - thick - apron));
+    table.add(box({2 * x, 0.022f, apron}), frame, at(0, side * y, height - thick - apron));
   }
   return std::move(table).finish();
 }

@@ -162,7 +162,7 @@ Model make_bottle(Dice& dice) {
 
 Model make_bowl(Dice& dice) {
   Assembly bowl("bowl", Symmetry::kAnyTurn);
-  const float radius = dice.uniform(0.065f, 0.13f), height = radius * dice.uniform(0.45f, 0.75f);
+  const float radius = dice.uniform(0.065f, 0.13f), height = radius * dice.uniform(0.6f, 0.95f);
   const float foot = radius * dice.uniform(0.4f, 0.55f), belly = dice.uniform(0.72f, 0.92f);
   const ProfilePoint points[] = {{foot, 0.004f},
                                  {radius * (0.35f + 0.4f * belly), height * 0.22f},

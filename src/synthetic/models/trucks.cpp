@@ -93,8 +93,7 @@ Model make_truck(Dice& dice) {
   truck.add(box({0.05f, 0.56f * width, 0.38f}, {.radius = 0.02f}), paints.dark,
             at(front, 0, 0.78f));
   truck.add(box({0.16f, width, 0.2f}, {.radius = 0.04f}), paints.dark, at(front - 0.02f, 0, 0.4f));
-  truck.add(box({length - 0.6f, 0.8f, 0.25f}, {.cell = 0.5f}), paints.dark,
-            at(-0.1f, 0, floor_z - 0.27f));
+  truck.add(box({length - 0.6f, 0.8f, 0.25f}), paints.dark, at(-0.1f, 0, floor_z - 0.27f));
 
   const float bed_l = length - cab_l - 0.12f, bed_x = back + bed_l / 2;
   const Colour cargo = dice.chance(0.5f) ? srgb(0xf0f0ee) : dice.colour(kCarPaints);
@@ -107,17 +106,15 @@ Model make_truck(Dice& dice) {
               {.thickness = 0.2f, .max_width = 0.8f * bed_l});
     const auto print =
         truck.material({.colour = Colour::Ones(), .texture = side.texture(), .gloss = 0.15f});
-    truck.add(box({bed_l, width + 0.1f, box_h}, {.radius = 0.02f, .cell = 0.4f}), print,
-              at(bed_x, 0, floor_z));
+    truck.add(box({bed_l, width + 0.1f, box_h}, {.radius = 0.02f}), print, at(bed_x, 0, floor_z));
     truck.add(box({0.01f, 0.012f, box_h - 0.2f}), paints.dark, at(back, 0, floor_z + 0.1f));
   } else {
     const auto bed = truck.material({.colour = cargo, .gloss = 0.2f});
     const float wall = dice.uniform(0.4f, 0.8f);
-    truck.add(box({bed_l, width + 0.06f, 0.12f}, {.cell = 0.4f}), bed, at(bed_x, 0, floor_z));
+    truck.add(box({bed_l, width + 0.06f, 0.12f}), bed, at(bed_x, 0, floor_z));
     for (const float s : {-1.0f, 1.0f}) {
-      truck.add(box({bed_l, 0.05f, wall}, {.cell = 0.4f}), bed,
-                at(bed_x, s * width / 2, floor_z + 0.1f));
-      truck.add(box({0.05f, width, wall}, {.cell = 0.4f}), bed,
+      truck.add(box({bed_l, 0.05f, wall}), bed, at(bed_x, s * width / 2, floor_z + 0.1f));
+      truck.add(box({0.05f, width, wall}), bed,
                 at(bed_x + s * (bed_l / 2 - 0.025f), 0, floor_z + 0.1f));
     }
   }
@@ -141,8 +138,7 @@ Model make_bus(Dice& dice) {
                           {-front + 0.1f, height},
                           {-front, height - 0.15f}};
   bus.add(across(side_view, width, 0.08f), paints.paint);
-  bus.add(box({length - 0.1f, width + 0.01f, 0.2f}, {.radius = 0.004f, .cell = 0.6f}), stripe,
-          at(0, 0, 0.95f));
+  bus.add(box({length - 0.1f, width + 0.01f, 0.2f}, {.radius = 0.004f}), stripe, at(0, 0, 0.95f));
   const Eigen::Vector2f foot(front, 1.2f), top(front - lean * 0.86f, height - 0.42f);
   const Eigen::Vector2f slope = (top - foot).normalized(), out(slope.y(), -slope.x());
   bus.add(across({foot - 0.03f * out, foot + 0.012f * out, top + 0.012f * out, top - 0.03f * out},
@@ -159,11 +155,10 @@ Model make_bus(Dice& dice) {
   const int windows = int((length - 2.2f) / dice.uniform(1.2f, 1.6f));
   const float pitch = (length - 1.9f) / float(windows), glass_z = dice.uniform(1.2f, 1.35f);
   for (int i = 0; i < windows; ++i)
-    bus.add(box({pitch - 0.08f, width + 0.016f, height - 0.4f - glass_z},
-                {.radius = 0.006f, .cell = 0.6f}),
+    bus.add(box({pitch - 0.08f, width + 0.016f, height - 0.4f - glass_z}, {.radius = 0.006f}),
             paints.glass, at(-front + 0.5f + (float(i) + 0.5f) * pitch, 0, glass_z));
   for (const float x : {front - 0.75f, -0.06f * length})  // doors, on the right side
-    bus.add(box({1.1f, 0.02f, height - 0.75f}, {.radius = 0.008f, .cell = 0.5f}), paints.glass,
+    bus.add(box({1.1f, 0.02f, height - 0.75f}, {.radius = 0.008f}), paints.glass,
             at(x, -width / 2 - 0.006f, low + 0.1f));
   for (const float side : {-1.0f, 1.0f}) {
     bus.add(box({0.06f, 0.36f, 0.18f}, {.radius = 0.025f}), paints.lamp,

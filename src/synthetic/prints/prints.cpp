@@ -189,7 +189,7 @@ Print screen_content(float width, float height, Dice& dice) {
   Canvas canvas(width, height, 1024 / width, ground * 0.6f);
   const float unit = height / 100;
   picture_of_shapes(canvas, 0, 0, width, height, dice);
-  const int windows = 2 + dice.below(3);
+  const int windows = dice.chance(0.25f) ? 0 : 1 + dice.below(3);
   for (int i = 0; i < windows; ++i) {
     const float wide = width * dice.uniform(0.35f, 0.65f), tall = height * dice.uniform(0.4f, 0.7f);
     const float x = dice.uniform(0.02f * width, 0.98f * width - wide);
