@@ -114,7 +114,7 @@ void Room::add_window(int wall, float x, float y, float width, float height,
   Mesh pane;
   Material view = patterned(Pattern::kView, layout_.seed());
   view.colour = Colour::Zero();
-  view.emission = 0.9f * daylight;
+  view.emission = 0.3f * daylight;  // less than it lights with, so that there is something to see
   // The picture of the world outside, as large as the pane.
   auto scaled = std::make_shared<Texture>(*view.texture);
   scaled->texels_per_metre *=

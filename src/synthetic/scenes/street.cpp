@@ -63,40 +63,24 @@ struct Fronts {
 };
 
 // A house whose front's lower edge runs from `left` along `right` (unit) as seen from the street.
-void add_house(Layout& layout, const Vector2f& left, const Vector2f& right, const Fronts& fronts,
-               bool has_end) {
+// It has neither sides nor back: around a block the houses stand wall to wall and are equally tall.
+void add_house(Layout& layout, const Vector2f& left, const Vector2f& right, float height,
+               float rise, const Fronts& fronts) {
+  constexpr float kEaves = 0.5f, kThick = 0.1f;
   const Vector3f r(right.x(), right.y(), 0), up(0, 0, 1);
   const Vector3f back = up.cross(r);  // away from the street
-  const float height = layout.one_of({9.f, 12.f, 12.f});
   const Vector3f base(left.x(), left.y(), kKerb);
-  const float top_v = facade_size.y() - height;
   Mesh mesh;
   const auto wall = mesh.add(fronts.walls[std::size_t(layout.below(int(fronts.walls.size())))]);
   const auto roof = mesh.add(fronts.roof);
-  const float eaves = 0.5f, rise = layout.uniform(1.5f, 3.5f);
-  add_picture(mesh, base + height * up, kHouse * r, -height * up, wall, {0, top_v});
-  if (has_end) {
-    add_picture(mesh, base + height * up + kDepth * back, -kDepth * back, -height * up, wall,
-                {0, top_v});
-    add_picture(mesh, base + height * up + kHouse * r, kDepth * back, -height * up, wall,
-                {2, top_v});
-  }
+  add_picture(mesh, base + height * up, kHouse * r, -height * up, wall,
+              {0, facade_size.y() - height});
   const Vector3f ridge = base + (height + rise) * up + 0.5f * kDepth * back;
-  const Vector3f front_eaves = base + height * up - eaves * back - 0.2f * up;
-  add_quad(mesh, front_eaves, kHouse * r, ridge - front_eaves, roof);
-  add_quad(mesh, front_eaves, ridge - front_eaves, kHouse * r, roof);  // from below
-  for (const float x : {0.f, kHouse}) {                                // gables
-    const auto first = std::uint32_t(mesh.vertices.size());
-    const Vector3f n = x == 0 ? Vector3f(-r) : r;
-    for (const Vector3f& p :
-         {Vector3f(base + height * up + x * r),
-          Vector3f(base + height * up + x * r + kDepth * back), Vector3f(ridge + x * r)}) {
-      mesh.vertices.push_back({p, n, {0.2f, 0.1f}});
-    }
-    const bool turn = x == 0;
-    mesh.triangles.push_back({first, first + (turn ? 1u : 2u), first + (turn ? 2u : 1u), wall});
-    mesh.triangles.push_back({first, first + (turn ? 2u : 1u), first + (turn ? 1u : 2u), wall});
-  }
+  const Vector3f eaves = base + height * up - kEaves * back;
+  const Vector3f below = kThick * up;
+  add_quad(mesh, eaves, kHouse * r, ridge - eaves, roof);
+  add_quad(mesh, eaves - below, ridge - eaves, kHouse * r, roof);
+  add_quad(mesh, eaves - below, kHouse * r, below, roof);  // the gutter
   layout.add_surface("building", std::move(mesh));
   layout.add_plane("building",
                    {base, base + kHouse * r, base + kHouse * r + height * up, base + height * up});
@@ -119,10 +103,10 @@ void add_block(Layout& layout, const Vector2f& origin, const Material& paving,
                              corner + Vector2f(0, side)};
   const Vector2f rights[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   const int count = int(side / kHouse);
+  const float height = layout.one_of({9.f, 12.f, 12.f}), rise = layout.uniform(1.5f, 3.5f);
   for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < count; ++k) {
-      add_house(layout, starts[i] + float(k) * kHouse * rights[i], rights[i], fronts,
-                k == 0 || k == count - 1);
+      add_house(layout, starts[i] + float(k) * kHouse * rights[i], rights[i], height, rise, fronts);
     }
   }
 }

@@ -198,7 +198,7 @@ Texture view(cv::RNG& random) {
   for (int y = 0; y < size.height; ++y) {
     const float t = float(y) / float(horizon);
     const cv::Vec3f sky = cv::Vec3f(250, 228, 205) * (1 - 0.5f * t) + cv::Vec3f(120, 120, 120) * t;
-    fill(canvas, {0, y, size.width, 1}, y < horizon ? sky : cv::Vec3f(95, 140, 120));
+    fill(canvas, {0, y, size.width, 1}, y < horizon ? sky : cv::Vec3f(88, 118, 108));
   }
   for (int i = 0; i < 14; ++i) {  // houses and trees far away
     const int w = random.uniform(30, 90), h = random.uniform(20, 110);
@@ -206,7 +206,7 @@ Texture view(cv::RNG& random) {
     if (random.uniform(0, 2) == 0) {
       fill(canvas, house, muted(random, 120, 200, 0.12f));
     } else {
-      cv::circle(canvas, {house.x, horizon - 5}, w / 2, scalar({70, 110 + float(h) / 4, 85}),
+      cv::circle(canvas, {house.x, horizon - 5}, w / 2, scalar({66, 82 + float(h) / 4, 72}),
                  cv::FILLED);
     }
   }
