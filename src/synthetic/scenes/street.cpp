@@ -111,6 +111,13 @@ void add_block(Layout& layout, const Vector2f& origin, const Material& paving,
   }
 }
 
+// Whether a place on a street is on a crossing, or nearer to one than `margin` metres.
+bool on_crossing(const Vector2d& p, double margin) {
+  const Vector2d cells = p / double(kPitch);
+  const Vector2d off = (cells - cells.array().round().matrix()).cwiseAbs() * double(kPitch);
+  return off.maxCoeff() < margin;
+}
+
 // What stands along one street from `from` to `to`: cars, trees, lamps.
 void line_street(Layout& layout, const Vector2d& from, const Vector2d& to, int road) {
   const Vector2d along = (to - from).normalized();
@@ -123,7 +130,7 @@ void line_street(Layout& layout, const Vector2d& from, const Vector2d& to, int r
       return Vector3f(float(p.x()), float(p.y()), float(z));
     };
     for (double s = 13; s < length - 13; s += double(layout.uniform(6.2f, 11.0f))) {
-      if (layout.chance(0.25f)) continue;
+      if (layout.chance(0.25f) || on_crossing(from + s * along, 12)) continue;
       Model car = make_model(layout.chance(0.06f) ? "truck" : "car", layout.seed());
       const Eigen::Vector3f size = extent(car).sizes();
       if (size.y() > 2.35f || size.x() > 6) continue;
@@ -155,6 +162,7 @@ void mark_lanes(Layout& layout, const Vector2d& from, const Vector2d& to) {
   const Vector3f r(a.y(), -a.x(), 0);
   for (double s = 10; s < (to - from).norm() - 10; s += 9) {
     const Vector2d p = from + s * along;
+    if (on_crossing(p, 9)) continue;
     const Vector3f at(float(p.x()), float(p.y()), 0.006f);
     add_quad(mesh, at - 0.07f * r, 0.14f * r, 3.f * a, paint);
   }
