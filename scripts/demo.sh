@@ -11,7 +11,7 @@ if [ -z "$sequence" ]; then
   # Rendered once, and again when the scene has changed.
   if [ ! -e "$scene/.complete" ] || [ -n "$(find src/synthetic -newer "$scene/.complete")" ]; then
     rm -rf "$scene"
-    "$program" synth "$scene" --frames 600 --seed 0
+    "$program" synth "$scene" --scene desk --truth poses --seed 0
     touch "$scene/.complete"
   fi
 fi

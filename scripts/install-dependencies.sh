@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   make g++ cmake ninja-build ccache
-  libeigen3-dev libceres-dev libopencv-dev libtbb-dev
+  libeigen3-dev libceres-dev libopencv-dev libtbb-dev libembree-dev
   libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev libcli11-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   "$@"

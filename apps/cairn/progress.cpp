@@ -22,8 +22,12 @@ Progress::Progress(bool wanted, std::optional<std::size_t> frames)
 Progress::~Progress() { clear(); }
 
 void Progress::show(const FrameRecord& record) {
-  ++seen_;
   keyframes_ += record.keyframe;
+  show(std::string(to_string(record.state)) + "  " + std::to_string(keyframes_) + " keyframes");
+}
+
+void Progress::show(const std::string& what) {
+  ++seen_;
   const auto now = std::chrono::steady_clock::now();
   if (!visible_ || (drawn_ && now - last_drawn_ < kRedraw)) return;
   last_drawn_ = now;
@@ -35,8 +39,8 @@ void Progress::show(const FrameRecord& record) {
     std::fill_n(bar.begin(), std::min<std::size_t>(seen_ * kBarWidth / *frames_, kBarWidth), '#');
     all = "of " + std::to_string(*frames_);
   }
-  std::fprintf(stderr, "\r\033[K[%s] %zu %s frames  %.1f fps  %s  %zu keyframes", bar.c_str(),
-               seen_, all.c_str(), fps, std::string(to_string(record.state)).c_str(), keyframes_);
+  std::fprintf(stderr, "\r\033[K[%s] %zu %s frames  %.1f fps  %s", bar.c_str(), seen_, all.c_str(),
+               fps, what.c_str());
   std::fflush(stderr);
 }
 

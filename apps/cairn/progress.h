@@ -15,6 +15,8 @@ class Progress {
   ~Progress();
 
   void show(const FrameRecord& record);
+  /// One more frame; `what` says what is going on.
+  void show(const std::string& what);
   /// A line of its own, for what happens once.
   void note(const std::string& sentence);
 

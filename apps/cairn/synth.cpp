@@ -1,87 +1,108 @@
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
 #include "cairn/geometry/error.h"
-#include "cairn/synthetic/demo_scene.h"
+#include "cairn/synthetic/truth_json.h"
+#include "cairn/synthetic/world.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "output_folder.h"
+#include "progress.h"
+#include "sequence_folder.h"
 
 namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFps = 30;
-constexpr double kFirstTimestamp = 1000;  // as a clock would give it, not zero
+constexpr double kBaseline = 0.54;  // metres, KITTI's
+constexpr int kCoarse = 4;          // of pictures that only tell what is visible
 
 struct Arguments {
-  std::string out;
-  int frames = 600;
+  std::string out, scene = "desk", sensor = "mono", truth = "all";
+  int frames = -1, width = 640, height = 480, samples = 4;
   std::uint64_t seed = 0;
-  bool force = false;
+  double readout_ms = 0;
+  bool force = false, no_progress = false;
+  bool no_blur = false, no_distortion = false, no_vignetting = false, no_exposure = false,
+       no_noise = false;
 };
 
-// Buffers a text file and says whether it reached the disk.
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path);
-  if (!(file << text << std::flush)) {
-    throw Error(Error::Kind::kOutput,
-                path.string() + ": this file cannot be written; is the disk full?");
+SynthSensor sensor_of(const std::string& name) {
+  if (name == "stereo") return SynthSensor::kStereo;
+  return name == "rgbd" ? SynthSensor::kRgbd : SynthSensor::kMono;
+}
+
+RenderOptions render_options(const Arguments& arguments) {
+  RenderOptions options;
+  options.samples = arguments.samples;
+  options.readout = arguments.readout_ms / 1000;
+  if (arguments.no_blur) options.exposure = 0;
+  if (arguments.no_vignetting) options.sensor.vignetting = 0;
+  if (arguments.no_exposure) options.sensor.auto_exposure = 0;
+  if (arguments.no_noise) options.sensor.full_well = options.sensor.read_noise = 0;
+  return options;
+}
+
+// Renders all frames; false if it was interrupted.
+bool render_frames(const Arguments& arguments, const World& world, const Camera& camera, int frames,
+                   SequenceFolder& folder, VisibilityCount& visible) {
+  const SynthSensor sensor = sensor_of(arguments.sensor);
+  const RenderOptions options = render_options(arguments);
+  RenderOptions right = options;
+  right.T_bc = SE3(Eigen::Quaterniond::Identity(), {kBaseline, 0, 0});
+  const bool all = arguments.truth == "all", deep = sensor == SynthSensor::kRgbd;
+  const Camera coarse = camera.resized(std::max(16, camera.width() / kCoarse),
+                                       std::max(16, camera.height() / kCoarse));
+  Progress progress(!arguments.no_progress, std::size_t(frames));
+  for (int i = 0; i < frames; ++i) {
+    if (interrupted()) return false;
+    const double t = i / world.scene().fps;
+    const SE3 T_wc = world.scene().path(t);
+    const bool whole = all || deep;
+    const FrameTruth truth = world.truth(whole ? camera : coarse, T_wc);
+    visible.add(truth, whole ? 1 : kCoarse * kCoarse);
+    folder.add(T_wc, world.render(camera, t, options),
+               sensor == SynthSensor::kStereo ? world.render(camera, t, right) : cv::Mat(),
+               truth.depth);
+    if (all) folder.add_truth(truth, world.scene());
+    progress.show("rendered");
   }
-}
-
-std::string calibration_yaml(const Camera& camera) {
-  const Pinhole& p = camera.pinhole();
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "color:\n  model: pinhole\n  width: %d\n  height: %d\n  fps: %g\n  fx: %.6f\n"
-                "  fy: %.6f\n  cx: %.6f\n  cy: %.6f\n"
-                "  distortion: [0, 0, 0, 0, 0]   # k1 k2 p1 p2 k3\n",
-                camera.width(), camera.height(), kFps, p.fx, p.fy, p.cx, p.cy);
-  return text;
-}
-
-std::string tum_line(const std::string& timestamp, const SE3& T_wc) {
-  const auto& t = T_wc.translation();
-  const auto& q = T_wc.rotation();
-  char text[256];
-  std::snprintf(text, sizeof text, "%s %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", timestamp.c_str(),
-                t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
-  return text;
+  return true;
 }
 
 int synthesize(const Arguments& arguments) {
+  const SceneKind kind = parse_scene_kind(arguments.scene);
+  const bool stereo = arguments.sensor == "stereo";
+  const Camera camera =
+      default_camera(kind, arguments.width, arguments.height, !arguments.no_distortion && !stereo);
   const fs::path out = prepare_output_folder(arguments.out, "", arguments.force);
-  fs::create_directories(out / "rgb");
   remember_interrupts();
-  const DemoScene scene(arguments.seed);
-  std::string list = "# timestamp filename\n";
-  std::string poses = "# timestamp tx ty tz qx qy qz qw (camera to world)\n";
-  for (int i = 0; i < arguments.frames && !interrupted(); ++i) {
-    const double t = i / kFps;
-    char timestamp[32];
-    std::snprintf(timestamp, sizeof timestamp, "%.6f", kFirstTimestamp + t);
-    const std::string name = std::string("rgb/") + timestamp + ".png";
-    // The quickest compression: the pictures are noisy and hardly compress anyway.
-    if (!cv::imwrite((out / name).string(), scene.render(t), {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-      throw Error(Error::Kind::kOutput,
-                  (out / name).string() + ": this picture cannot be written; is the disk full?");
-    }
-    list += std::string(timestamp) + " " + name + "\n";
-    poses += tum_line(timestamp, scene.T_wc(t));
-  }
-  // Last, because they make the folder a sequence.
-  write_text(out / "groundtruth.txt", poses);
-  write_text(out / "calibration.yaml", calibration_yaml(scene.camera()));
-  write_text(out / "rgb.txt", list);
-  if (interrupted()) return kInterrupted;
-  std::printf("%d frames with ground truth are in %s; `cairn run %s` takes them.\n",
-              arguments.frames, out.c_str(), out.c_str());
+  Scene scene = make_scene(kind, arguments.seed);
+  const int frames =
+      arguments.frames > 0 ? arguments.frames : int(std::lround(scene.duration * scene.fps));
+  SequenceFolder folder(out, sensor_of(arguments.sensor), camera, scene.fps, kBaseline);
+  const World world(std::move(scene));
+  VisibilityCount visible;
+  if (!render_frames(arguments, world, camera, frames, folder, visible)) return kInterrupted;
+  folder.finish(world_json(world, visible));
+  std::printf("%d frames with ground truth are in %s; `cairn run %s` takes them.\n", frames,
+              out.c_str(), out.c_str());
   return kDone;
+}
+
+void add_switches(CLI::App& command, Arguments& arguments) {
+  command.add_flag("--no-blur", arguments.no_blur, "no motion blur: the shutter opens for no time");
+  command.add_flag("--no-distortion", arguments.no_distortion,
+                   "an ideal lens (that of a stereo rig always is: its pictures are rectified)");
+  command.add_flag("--no-vignetting", arguments.no_vignetting, "corners as bright as the middle");
+  command.add_flag("--no-auto-exposure", arguments.no_exposure, "one exposure for all pictures");
+  command.add_flag("--no-noise", arguments.no_noise, "a sensor without noise");
+  command
+      .add_option("--rolling-shutter", arguments.readout_ms,
+                  "milliseconds from the first row to the last")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -89,13 +110,38 @@ int synthesize(const Arguments& arguments) {
 Action add_synth(CLI::App& program) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand(
-      "synth", "Renders a sequence of a synthetic desk with ground truth, in TUM layout");
+      "synth", "Renders a sequence of a synthetic world with its whole ground truth");
   command->add_option("out", arguments->out, "the folder to write")->required()->type_name("OUT");
-  command->add_option("--frames", arguments->frames, "pictures to render, 30 a second")
-      ->check(CLI::Range(1, 100000))
+  command->add_option("--scene", arguments->scene, "desk, room, corridor or street")
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "another seed gives other prints and another path")
+  command
+      ->add_option("--frames", arguments->frames,
+                   "pictures to render; without it the whole path of the scene")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--seed", arguments->seed, "another seed gives another world and path")
       ->capture_default_str();
+  command
+      ->add_option("--sensor", arguments->sensor,
+                   "mono, stereo (KITTI's layout) or rgbd (with depth.txt)")
+      ->check(CLI::IsMember({"mono", "stereo", "rgbd"}))
+      ->capture_default_str();
+  command->add_option("--width", arguments->width, "pixels")
+      ->check(CLI::Range(32, 4096))
+      ->capture_default_str();
+  command->add_option("--height", arguments->height, "pixels")
+      ->check(CLI::Range(32, 4096))
+      ->capture_default_str();
+  command->add_option("--samples", arguments->samples, "rays a pixel")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command
+      ->add_option("--truth", arguments->truth,
+                   "all: truth.jsonl, depth, normals, labels and instances of each frame; "
+                   "poses: only poses and world.json")
+      ->check(CLI::IsMember({"all", "poses"}))
+      ->capture_default_str();
+  add_switches(*command, *arguments);
+  command->add_flag("--no-progress", arguments->no_progress, "no progress bar");
   command->add_flag("--force", arguments->force, "write into a folder that is not empty");
   return [arguments] { return synthesize(*arguments); };
 }

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "cairn/synthetic/texture.h"
+#include "cairn/synthetic/demo_texture.h"
 
 namespace cairn {
 namespace {
@@ -90,12 +90,13 @@ struct DemoScene::World {
     std::vector<cv::Rect> window;
   };
 
-  void add(const Vector3f& centre, const Vector3f& size, float yaw_deg, Material material,
+  void add(const Vector3f& centre, const Vector3f& size, float yaw_deg, DemoSurface surface,
            float texels_per_metre, const cv::Size& texture, std::uint64_t seed) {
     const Matrix3f R_wb =
         Eigen::AngleAxisf(yaw_deg * float(M_PI) / 180, Vector3f::UnitZ()).toRotationMatrix();
     boxes.push_back({centre, 0.5f * size, R_wb.transpose(),
-                     make_texture(material, texture, seed * 64 + boxes.size()), texels_per_metre});
+                     make_demo_texture(surface, texture, seed * 64 + boxes.size()),
+                     texels_per_metre});
   }
 
   View seen_from(const SE3& T_wc, const Camera& camera) const {
@@ -147,7 +148,7 @@ DemoScene::DemoScene(std::uint64_t seed, const Options& options)
       options_(options),
       camera_(Camera::Model::kRadialTangential, kWidth, kHeight, {525, 525, 320, 240}) {
   auto world = std::make_unique<World>();
-  using enum Material;
+  using enum DemoSurface;
   // The corner of the room.
   world->add({0.6f, 0.6f, -0.05f}, {4.6f, 4.6f, 0.1f}, 0, kTiles, 240, {1100, 1100}, seed);
   world->add({-1.3f, 0.9f, 1.3f}, {0.1f, 4.6f, 2.7f}, 0, kWallpaper, 240, {1100, 700}, seed);

@@ -17,11 +17,11 @@ struct Texture {
 
 /// How a surface reflects light: a diffuse part and a glossy highlight over it (Blinn-Phong).
 struct Material {
-  Colour colour = Colour::Constant(0.5f);  ///< diffuse albedo; tints the texture
-  std::shared_ptr<const Texture> texture;  ///< none: plain
-  float gloss = 0;                         ///< strength of the highlight, 0 to 1
-  float shininess = 30;                    ///< exponent of the highlight: sharper when larger
-  Colour emission = Colour::Zero();        ///< times the texture: a screen that is on
+  Colour colour = Colour::Constant(0.5f);            ///< diffuse albedo; tints the texture
+  std::shared_ptr<const Texture> texture = nullptr;  ///< none: plain
+  float gloss = 0;                                   ///< strength of the highlight, 0 to 1
+  float shininess = 30;              ///< exponent of the highlight: sharper when larger
+  Colour emission = Colour::Zero();  ///< times the texture: a screen that is on
 };
 
 }  // namespace cairn

@@ -41,9 +41,11 @@ struct Scene {
   std::vector<WorldThing> things;
   std::vector<WorldPlane> planes;
   std::vector<AreaLight> lights;
-  Colour sky = Colour::Zero();          ///< light from where no surface is
-  Colour ambient = Colour::Zero();      ///< light that has bounced often, times how open a place is
-  std::function<SE3(double)> path;      ///< T_wc at t seconds, smooth; no two views are the same
+  Colour sky = Colour::Zero();      ///< light from where no surface is
+  Colour ambient = Colour::Zero();  ///< light that has bounced often, times how open a place is
+  std::function<SE3(double)> path;  ///< T_wc at t seconds, smooth; no two views are the same
+  double fps = 30;                  ///< pictures a second that suit the path
+  double duration = 10;             ///< seconds until the path is at its end
 };
 
 enum class SceneKind { kDesk, kRoom, kCorridor, kStreet };

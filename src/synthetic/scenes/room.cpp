@@ -1,0 +1,79 @@
+// A living room; the camera walks around in it, looking ahead and outwards, and comes back to where
+// it began.
+#include "cairn/synthetic/scenes/hand_motion.h"
+#include "cairn/synthetic/scenes/indoors.h"
+#include "cairn/synthetic/scenes/makers.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr double kLap = 20;  // seconds
+
+// Furniture side by side along a wall, from left to right, as far as it fits.
+void fill_wall(Layout& layout, const Room& room, int wall, float from, float to,
+               std::initializer_list<const char*> classes) {
+  float at = from;
+  for (const std::string name : classes) {
+    Model model = make_model(name, layout.seed());
+    const Eigen::AlignedBox3f box = extent(model);
+    const float wide = box.sizes().y();
+    if (box.sizes().x() > 1.1f || at + wide > to) continue;
+    const int thing = stand_at_wall(layout, room, wall, at + wide / 2, std::move(model));
+    at += wide + layout.uniform(0.08f, 0.3f);
+    if (name == "cabinet") {
+      lay_things(layout, layout.add_top(thing, name), {"tv", "vase", "book", "clock", "bowl"});
+    } else if (name == "dining table") {
+      lay_things(layout, layout.add_top(thing, "table"),
+                 {"laptop", "cup", "bottle", "bowl", "book", "cup", "banana", "orange"});
+    }
+  }
+}
+
+SE3 walk(double t, const HandMotion& hand, const Eigen::Vector2d& radii) {
+  const double lap = t / kLap, turn = 2 * M_PI * lap;
+  // Waves that fit the lap, so that it closes.
+  const double in = 1 + 0.08 * std::sin(3 * turn) + 0.05 * std::sin(5 * turn + 1);
+  const Eigen::Vector3d at(in * radii.x() * std::cos(turn), in * radii.y() * std::sin(turn),
+                           1.35 + 0.08 * std::sin(2 * turn) + 0.03 * std::sin(7 * turn));
+  const double ahead = turn + 0.8 + 0.2 * std::sin(4 * turn);
+  const double down = 0.16 + 0.1 * std::sin(3 * turn + 2);
+  const Eigen::Vector3d look(std::cos(ahead) * std::cos(down), std::sin(ahead) * std::cos(down),
+                             -std::sin(down));
+  const double swing = std::sin(M_PI * lap);
+  return looking_at(at, at + look, 0.03 * std::sin(4 * turn)) * hand.tremble(t, swing * swing);
+}
+
+}  // namespace
+
+Scene make_room(std::uint64_t seed) {
+  Layout layout("room", seed);
+  const Vector3f size(layout.uniform(5.8f, 6.6f), layout.uniform(5.0f, 5.6f), 2.6f);
+  Room room(layout, size, layout.one_of({Pattern::kParquet, Pattern::kTiles, Pattern::kCarpet}),
+            layout.one_of({Pattern::kPlaster, Pattern::kWallpaper}));
+  const float x = size.x() / 2 - 0.5f, y = size.y() / 2 - 0.5f;
+  fill_wall(layout, room, 0, -y, y, {"cabinet", "shelf", "potted plant", "chair"});
+  fill_wall(layout, room, 1, -x, x, {"floor lamp", "couch", "suitcase", "shelf"});
+  fill_wall(layout, room, 2, -y, y, {"refrigerator", "dining table", "chair", "potted plant"});
+  fill_wall(layout, room, 3, -x, -0.6f, {"shelf", "backpack", "cabinet"});
+  room.add_door(3, 0.4f, Colour(0.5f, 0.42f, 0.33f));
+  fill_wall(layout, room, 3, 1.2f, x, {"cabinet", "bench"});
+  for (int wall = 0; wall < 4; ++wall) {
+    const float reach = room.wall_width(wall) / 2 - 0.7f;
+    if (wall != 3) room.add_poster(wall, layout.uniform(0.4f, 1) * reach, 1.75f, 0.9f);
+    room.add_poster(wall, -layout.uniform(0.5f, 1) * reach, 1.75f, layout.uniform(0.7f, 1));
+  }
+  room.add_window(1, 0.1f, 1.65f, 1.5f, 1.1f, layout.uniform(0.8f, 1.2f) * Colour(6, 6.6f, 7.4f));
+  room.add_window(2, 0, 1.7f, 1.2f, 1.0f, layout.uniform(0.8f, 1.2f) * Colour(5, 5.6f, 6.4f));
+  room.add_ceiling_lamp({0, 0}, {1.2f, 1.2f}, layout.uniform(0.8f, 1.2f) * Colour(5, 4.5f, 3.8f));
+  Scene& scene = layout.scene();
+  scene.ambient = Colour(0.04f, 0.039f, 0.037f);
+  const HandMotion hand(seed + 200);
+  const Eigen::Vector2d radii(size.x() / 2 - 1.95, size.y() / 2 - 1.75);
+  scene.path = [hand, radii](double t) { return walk(t, hand, radii); };
+  scene.duration = kLap;
+  return std::move(layout).finish();
+}
+
+}  // namespace cairn

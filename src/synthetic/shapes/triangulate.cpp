@@ -1,0 +1,50 @@
+#include "cairn/synthetic/shapes/triangulate.h"
+
+#include <numeric>
+
+namespace cairn {
+namespace {
+
+float twice_area(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+bool is_ear(const Outline& outline, const std::vector<int>& left, int i) {
+  const int n = int(left.size());
+  const Eigen::Vector2f &a = outline[left[(i + n - 1) % n]], &b = outline[left[i]],
+                        &c = outline[left[(i + 1) % n]];
+  if (twice_area(a, b, c) <= 0) return false;
+  for (int k = 2; k + 1 < n; ++k) {
+    const Eigen::Vector2f& p = outline[left[(i + k) % n]];
+    if (p == a || p == b || p == c) continue;
+    if (twice_area(a, b, p) >= 0 && twice_area(b, c, p) >= 0 && twice_area(c, a, p) >= 0)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3i> triangulate(const Outline& outline) {
+  std::vector<int> left(outline.size());
+  std::iota(left.begin(), left.end(), 0);
+  std::vector<Eigen::Vector3i> triangles;
+  int at = 0, tried = 0;
+  while (left.size() > 2) {
+    const int n = int(left.size());
+    at %= n;
+    // With nothing but flat corners left, any of them will do.
+    if (is_ear(outline, left, at) || tried > n) {
+      triangles.emplace_back(left[(at + n - 1) % n], left[at], left[(at + 1) % n]);
+      left.erase(left.begin() + at);
+      tried = 0;
+      at += 1;  // every other corner first: fewer slivers than a fan
+    } else {
+      ++at;
+      ++tried;
+    }
+  }
+  return triangles;
+}
+
+}  // namespace cairn

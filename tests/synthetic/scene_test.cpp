@@ -1,0 +1,137 @@
+#include "cairn/synthetic/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "cairn/geometry/error.h"
+#include "cairn/synthetic/ray_caster.h"
+#include "cairn/synthetic/tessellation.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+std::vector<Mesh> placed(const Scene& scene) {
+  std::vector<Mesh> meshes;
+  for (const WorldThing& thing : scene.things) {
+    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
+    T.linear() = thing.T_wo.matrix3().cast<float>();
+    T.translation() = thing.T_wo.translation().cast<float>();
+    meshes.emplace_back();
+    meshes.back().append(thing.model.mesh, T);
+  }
+  return meshes;
+}
+
+// The distance to the nearest surface among many directions.
+float clearance(const RayCaster& caster, const Vector3d& at) {
+  float nearest = 1e9f;
+  for (int i = 0; i < 100; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / 100, angle = 2.39996323 * i, r = std::sqrt(1 - z * z);
+    const RayHit hit = caster.cast(
+        at.cast<float>(), Vector3d(r * std::cos(angle), r * std::sin(angle), z).cast<float>());
+    if (hit.found()) nearest = std::min(nearest, hit.distance);
+  }
+  return nearest;
+}
+
+void expect_free_path(const Scene& scene) {
+  const std::vector<Mesh> meshes = placed(scene);
+  const RayCaster caster(meshes);
+  Vector3d last = scene.path(0).translation();
+  for (double t = 0; t < scene.duration; t += 0.1) {
+    const Vector3d at = scene.path(t).translation();
+    EXPECT_GT(clearance(caster, at), 0.15f) << "at " << t << " s";
+    const Vector3d step = at - last;
+    if (step.norm() > 1e-6) {
+      const RayHit hit = caster.cast(last.cast<float>(), step.cast<float>());
+      EXPECT_TRUE(!hit.found() || hit.distance > 1) << "at " << t << " s";
+    }
+    last = at;
+  }
+}
+
+void expect_smooth_path(const Scene& scene) {
+  const double dt = 1 / scene.fps;
+  for (double t = dt; t < scene.duration - dt; t += 5 * dt) {
+    const SE3 before = scene.path(t).inverse() * scene.path(t - dt);
+    const SE3 after = scene.path(t).inverse() * scene.path(t + dt);
+    EXPECT_LT(so3_log(after.rotation()).norm() / dt, 1.5) << "radians a second, at " << t;
+    EXPECT_LT((before.translation() + after.translation()).norm() / (dt * dt), 6)
+        << "metres a second squared, at " << t;
+  }
+}
+
+void expect_flat_planes(const Scene& scene) {
+  EXPECT_FALSE(scene.planes.empty());
+  for (const WorldPlane& plane : scene.planes) {
+    EXPECT_NEAR(plane.normal.norm(), 1, 1e-9);
+    Vector3d area = Vector3d::Zero();
+    for (std::size_t i = 0; i < plane.outline.size(); ++i) {
+      EXPECT_NEAR(plane.normal.dot(plane.outline[i]) + plane.d, 0, 1e-4);
+      area += plane.outline[i].cross(plane.outline[(i + 1) % plane.outline.size()]);
+    }
+    EXPECT_GT(area.dot(plane.normal), 0) << "the outline runs the wrong way around";
+  }
+}
+
+class AnyScene : public testing::TestWithParam<std::tuple<const char*, int>> {};
+
+TEST_P(AnyScene, HasAFreeAndSmoothPathAndFlatPlanes) {
+  const auto [name, seed] = GetParam();
+  const Scene scene = make_scene(parse_scene_kind(name), std::uint64_t(seed));
+  expect_free_path(scene);
+  expect_smooth_path(scene);
+  expect_flat_planes(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AnyScene,
+                         testing::Combine(testing::Values("desk", "room", "corridor", "street"),
+                                          testing::Values(0, 1)));
+
+TEST(Scene, RoomEndsWhereItBegan) {
+  const Scene scene = make_scene(SceneKind::kRoom, 5);
+  const SE3 gap = scene.path(0).inverse() * scene.path(scene.duration);
+  EXPECT_LT(gap.translation().norm(), 0.01);
+  EXPECT_LT(so3_log(gap.rotation()).norm(), 0.01);
+  EXPECT_GT((scene.path(0).translation() - scene.path(scene.duration / 2).translation()).norm(), 1);
+}
+
+TEST(Scene, SeedsDiffer) {
+  const Scene a = make_scene(SceneKind::kDesk, 1), b = make_scene(SceneKind::kDesk, 2);
+  EXPECT_GT((a.path(1).translation() - b.path(1).translation()).norm(), 0.01);
+  EXPECT_NE(a.lights[0].radiance, b.lights[0].radiance);
+}
+
+TEST(Scene, UnknownNameIsOneSentence) {
+  try {
+    parse_scene_kind("garden");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::kUsage);
+    EXPECT_NE(std::string(error.what()).find("garden"), std::string::npos);
+  }
+}
+
+TEST(Tessellation, KeepsAreaAndBoundsEdges) {
+  Mesh mesh = make_model("book", 3).mesh;
+  const auto area = [&] {
+    double sum = 0;
+    for (const auto& t : mesh.triangles) {
+      const Vector3f& a = mesh.vertices[t.a].position;
+      sum +=
+          double((mesh.vertices[t.b].position - a).cross(mesh.vertices[t.c].position - a).norm());
+    }
+    return sum;
+  };
+  const double before = area();
+  tessellate(mesh, 0.03f);
+  EXPECT_NEAR(area(), before, 1e-5 * before);
+  for (const auto& t : mesh.triangles) {
+    EXPECT_LE((mesh.vertices[t.a].position - mesh.vertices[t.b].position).norm(), 0.03f);
+  }
+}
+
+}  // namespace
+}  // namespace cairn
