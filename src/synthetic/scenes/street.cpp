@@ -140,6 +140,7 @@ void line_street(Layout& layout, const Vector2d& from, const Vector2d& to, int r
                         road);
     }
     for (double s = 9; s < length - 9; s += double(layout.uniform(14, 20))) {
+      if (on_crossing(from + s * along, 8) || on_crossing(from + (s + 6) * along, 7)) continue;
       layout.add_object(
           make_model("tree", layout.seed()),
           standing(place(s, double(kRoad) + 0.7, double(kKerb)), layout.uniform(0, 6)), {});
