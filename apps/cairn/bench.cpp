@@ -10,7 +10,7 @@
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
 #include "cairn/output/summary.h"
-#include "cairn/synthetic/demo_scene.h"
+#include "cairn/synthetic/world.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "playback.h"
@@ -18,7 +18,7 @@
 namespace cairn::app {
 namespace {
 
-constexpr int kDemoFrames = 300;
+constexpr int kDeskFrames = 300;
 constexpr int kWidePicture = 1000;  // pixels; wider ones get twice the features
 
 struct Arguments {
@@ -28,19 +28,23 @@ struct Arguments {
   bool json = false;
 };
 
-class DemoFrames : public FrameSource {
+// The synthetic desk; one ray a pixel is enough to track on.
+class DeskFrames : public FrameSource {
  public:
-  explicit DemoFrames(std::uint64_t seed) : scene_(seed) {}
   bool next(SourceFrame& frame) override {
-    if (index_ == kDemoFrames) return false;
-    const double t = index_++ / 30.0;
-    frame = {t, scene_.render(t), std::to_string(index_), ""};
+    if (index_ == kDeskFrames) return false;
+    const double t = index_++ / world_.scene().fps;
+    RenderOptions options;
+    options.samples = 1;
+    frame = {t, world_.render(camera_, t, options), std::to_string(index_), ""};
     return true;
   }
-  std::optional<std::size_t> size() const override { return kDemoFrames; }
+  std::optional<std::size_t> size() const override { return kDeskFrames; }
+  const Camera& camera() const { return camera_; }
 
  private:
-  DemoScene scene_;
+  World world_{make_scene(SceneKind::kDesk, 0)};
+  Camera camera_ = default_camera(SceneKind::kDesk, 640, 480, true);
   int index_ = 0;
 };
 
@@ -98,11 +102,11 @@ void time_tracking(FrameSource& source, const Camera& camera, std::uint64_t seed
 
 Times time_sequence(const std::string& data, int seeds) {
   Times times;
-  times.sequence = data.empty() ? "demo scene" : data;
+  times.sequence = data.empty() ? "synthetic desk" : data;
   for (int seed = 0; seed < seeds && !interrupted(); ++seed) {
     if (data.empty()) {
-      DemoFrames frames(0);
-      time_tracking(frames, DemoScene(0).camera(), std::uint64_t(seed), times);
+      DeskFrames frames;
+      time_tracking(frames, frames.camera(), std::uint64_t(seed), times);
     } else {
       const Sequence sequence = open_sequence(data);
       time_tracking(*sequence.frames, camera_of(sequence, data), std::uint64_t(seed), times);
@@ -179,7 +183,8 @@ Action add_bench(CLI::App& program) {
   command->add_option("subject", arguments->subject, "what to measure")
       ->required()
       ->check(CLI::IsMember({"tracking", "memory"}));
-  command->add_option("--data", arguments->data, "a sequence, repeatable; default: the demo scene")
+  command
+      ->add_option("--data", arguments->data, "a sequence, repeatable; default: the synthetic desk")
       ->type_name("PATH")
       ->expected(1)
       ->take_all();

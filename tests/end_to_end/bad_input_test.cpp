@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "program.h"
+#include "quick_scene/quick_sequence.h"
 
 namespace cairn {
 namespace {
@@ -56,8 +57,7 @@ class BadInput : public testing::Test {
   };
 
   void SetUp() override {
-    const Ran synth = run_cairn("synth " + sequence() + " --frames " + std::to_string(kFrames));
-    ASSERT_EQ(synth.exit_code, 0) << synth.output;
+    write_quick_sequence(sequence(), kFrames);
     std::ifstream stream(sequence() + "/rgb.txt");
     for (std::string text; std::getline(stream, text);) {
       if (text.starts_with('#')) continue;

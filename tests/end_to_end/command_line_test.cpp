@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "program.h"
+#include "quick_scene/quick_sequence.h"
 
 namespace cairn {
 namespace {
@@ -24,8 +25,7 @@ class CommandLine : public testing::Test {
   std::string small_sequence() {
     std::string folder = folder_ / "small";
     if (std::filesystem::exists(folder)) return folder;
-    const Ran synth = run_cairn("synth " + folder + " --frames 3");
-    EXPECT_EQ(synth.exit_code, 0) << synth.output;
+    write_quick_sequence(folder, 3);
     return folder;
   }
   Ran run_small(const std::string& arguments) {

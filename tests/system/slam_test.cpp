@@ -4,15 +4,15 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "cairn/synthetic/demo_scene.h"
+#include "quick_scene/quick_scene.h"
 
 namespace cairn {
 namespace {
 
 constexpr int kFrames = 70;
 
-const DemoScene& scene() {
-  static const DemoScene scene(5);
+const QuickScene& scene() {
+  static const QuickScene scene(5);
   return scene;
 }
 

@@ -2,7 +2,7 @@
 
 #include "blackout.h"
 #include "cairn/evaluation/evaluation.h"
-#include "cairn/synthetic/demo_scene.h"
+#include "quick_scene/quick_scene.h"
 
 namespace cairn {
 namespace {
@@ -14,7 +14,7 @@ struct Played {
 };
 
 Played play(std::uint64_t seed, int frames, const Blackout& blackout = {}) {
-  const DemoScene scene(seed);
+  const QuickScene scene(seed);
   Options options;
   options.pace = Pace::kLockstep;
   Slam slam(scene.camera(), options);
@@ -29,7 +29,7 @@ Played play(std::uint64_t seed, int frames, const Blackout& blackout = {}) {
   return played;
 }
 
-TEST(DemoSceneRun, FiveSecondsAreTrackedWithinMillimetres) {
+TEST(QuickSceneRun, FiveSecondsAreTrackedWithinMillimetres) {
   const Played played = play(7, 150);
   ASSERT_EQ(played.result.refusal, "");
   const EvaluationReport report = evaluate(played.truth, played.result.trajectory);
@@ -40,7 +40,7 @@ TEST(DemoSceneRun, FiveSecondsAreTrackedWithinMillimetres) {
   EXPECT_TRUE(played.result.gaps.empty());
 }
 
-TEST(DemoSceneRun, FindsItsPlaceAgainAfterABlackout) {
+TEST(QuickSceneRun, FindsItsPlaceAgainAfterABlackout) {
   const Blackout blackout{170, 185};
   const Played played = play(2, 220, blackout);
   ASSERT_EQ(played.result.refusal, "");

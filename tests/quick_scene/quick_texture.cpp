@@ -1,4 +1,4 @@
-#include "cairn/synthetic/demo_texture.h"
+#include "quick_scene/quick_texture.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -127,16 +127,16 @@ cv::Mat print(const cv::Size& size, cv::RNG& random) {
 
 }  // namespace
 
-cv::Mat make_demo_texture(DemoSurface surface, const cv::Size& size, std::uint64_t seed) {
+cv::Mat make_quick_texture(QuickSurface surface, const cv::Size& size, std::uint64_t seed) {
   cv::RNG random(seed * 0x9E3779B97F4A7C15ull + 0x632BE59BD9B4E019ull);
   switch (surface) {
-    case DemoSurface::kWood:
+    case QuickSurface::kWood:
       return wood(size, random);
-    case DemoSurface::kTiles:
+    case QuickSurface::kTiles:
       return tiles(size, random);
-    case DemoSurface::kWallpaper:
+    case QuickSurface::kWallpaper:
       return wallpaper(size, random);
-    case DemoSurface::kPrint:
+    case QuickSurface::kPrint:
       break;
   }
   return print(size, random);

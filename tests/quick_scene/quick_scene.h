@@ -1,8 +1,5 @@
 #pragma once
 
-// The synthetic room: pictures of a world that is known exactly. It knows cameras and transforms,
-// and nothing of the system that is run on its pictures.
-
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -17,16 +14,16 @@ namespace cairn {
 /// it, all printed on richly enough for corners to be found. Small and quick; rendered on the CPU
 /// by casting rays. World frame: z up, metres, the floor at z = 0. The same seed gives the same
 /// bytes, with any number of threads.
-class DemoScene {
+class QuickScene {
  public:
   struct Options {
     double noise = 2.0;       ///< grey levels, standard deviation of the sensor noise
     double vignetting = 0.2;  ///< how much darker the corners of the picture are, 0 to 1
   };
 
-  explicit DemoScene(std::uint64_t seed) : DemoScene(seed, Options()) {}
-  DemoScene(std::uint64_t seed, const Options& options);
-  ~DemoScene();
+  explicit QuickScene(std::uint64_t seed) : QuickScene(seed, Options()) {}
+  QuickScene(std::uint64_t seed, const Options& options);
+  ~QuickScene();
 
   /// What the camera sees at `t` seconds: CV_8UC3 (BGR), 640x480.
   cv::Mat render(double t) const;

@@ -1,4 +1,4 @@
-#include "cairn/synthetic/demo_scene.h"
+#include "quick_scene/quick_scene.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "cairn/synthetic/demo_texture.h"
+#include "quick_scene/quick_texture.h"
 
 namespace cairn {
 namespace {
@@ -79,7 +79,7 @@ std::uint64_t scrambled(std::uint64_t x) {  // splitmix64
 
 }  // namespace
 
-struct DemoScene::World {
+struct QuickScene::World {
   std::vector<Box> boxes;
 
   // A scene is quick to cast because of what is done once a picture: the camera in each box's
@@ -90,12 +90,12 @@ struct DemoScene::World {
     std::vector<cv::Rect> window;
   };
 
-  void add(const Vector3f& centre, const Vector3f& size, float yaw_deg, DemoSurface surface,
+  void add(const Vector3f& centre, const Vector3f& size, float yaw_deg, QuickSurface surface,
            float texels_per_metre, const cv::Size& texture, std::uint64_t seed) {
     const Matrix3f R_wb =
         Eigen::AngleAxisf(yaw_deg * float(M_PI) / 180, Vector3f::UnitZ()).toRotationMatrix();
     boxes.push_back({centre, 0.5f * size, R_wb.transpose(),
-                     make_demo_texture(surface, texture, seed * 64 + boxes.size()),
+                     make_quick_texture(surface, texture, seed * 64 + boxes.size()),
                      texels_per_metre});
   }
 
@@ -143,12 +143,12 @@ struct DemoScene::World {
   }
 };
 
-DemoScene::DemoScene(std::uint64_t seed, const Options& options)
+QuickScene::QuickScene(std::uint64_t seed, const Options& options)
     : seed_(seed),
       options_(options),
       camera_(Camera::Model::kRadialTangential, kWidth, kHeight, {525, 525, 320, 240}) {
   auto world = std::make_unique<World>();
-  using enum DemoSurface;
+  using enum QuickSurface;
   // The corner of the room.
   world->add({0.6f, 0.6f, -0.05f}, {4.6f, 4.6f, 0.1f}, 0, kTiles, 240, {1100, 1100}, seed);
   world->add({-1.3f, 0.9f, 1.3f}, {0.1f, 4.6f, 2.7f}, 0, kWallpaper, 240, {1100, 700}, seed);
@@ -168,9 +168,9 @@ DemoScene::DemoScene(std::uint64_t seed, const Options& options)
   world_ = std::move(world);
 }
 
-DemoScene::~DemoScene() = default;
+QuickScene::~QuickScene() = default;
 
-SE3 DemoScene::T_wc(double t) const {
+SE3 QuickScene::T_wc(double t) const {
   // Periods that share no multiple within minutes; a phase of its own a seed.
   const double phase = 0.37 * double(seed_ % 17);
   auto wave = [&](double amplitude, double period, double shift) {
@@ -193,7 +193,7 @@ SE3 DemoScene::T_wc(double t) const {
   return SE3(Eigen::Quaterniond(R_wc) * so3_exp(Vector3d(0, 0, roll)), position);
 }
 
-cv::Mat DemoScene::render(double t) const {
+cv::Mat QuickScene::render(double t) const {
   const World::View view = world_->seen_from(T_wc(t), camera_);
   const Pinhole pinhole = camera_.pinhole();
   const std::uint64_t stream = scrambled(seed_ ^ scrambled(std::bit_cast<std::uint64_t>(t)));
@@ -225,7 +225,7 @@ cv::Mat DemoScene::render(double t) const {
   return picture;
 }
 
-std::optional<double> DemoScene::cast(const Vector3d& origin, const Vector3d& direction) const {
+std::optional<double> QuickScene::cast(const Vector3d& origin, const Vector3d& direction) const {
   Hit hit;
   for (int i = 0; i < int(world_->boxes.size()); ++i) {
     const Box& box = world_->boxes[i];

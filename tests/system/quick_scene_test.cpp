@@ -1,4 +1,4 @@
-#include "cairn/synthetic/demo_scene.h"
+#include "quick_scene/quick_scene.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -10,15 +10,15 @@ namespace {
 
 bool same_bytes(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF) == 0; }
 
-TEST(DemoScene, SameSeedSameBytesWithAnyNumberOfThreads) {
-  const cv::Mat first = DemoScene(3).render(1.5);
+TEST(QuickScene, SameSeedSameBytesWithAnyNumberOfThreads) {
+  const cv::Mat first = QuickScene(3).render(1.5);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_TRUE(same_bytes(first, DemoScene(3).render(1.5)));
-  EXPECT_FALSE(same_bytes(first, DemoScene(4).render(1.5)));
+  EXPECT_TRUE(same_bytes(first, QuickScene(3).render(1.5)));
+  EXPECT_FALSE(same_bytes(first, QuickScene(4).render(1.5)));
 }
 
-TEST(DemoScene, PathIsSmoothAndLeavesRoomForParallax) {
-  const DemoScene scene(0);
+TEST(QuickScene, PathIsSmoothAndLeavesRoomForParallax) {
+  const QuickScene scene(0);
   Eigen::AlignedBox3d space;
   for (int i = 0; i < 300; ++i) {
     const double t = i / 30.0;
@@ -31,8 +31,8 @@ TEST(DemoScene, PathIsSmoothAndLeavesRoomForParallax) {
   EXPECT_LT(space.diagonal().norm(), 3.0);
 }
 
-TEST(DemoScene, EveryRayOfThePictureMeetsASurface) {
-  const DemoScene scene(0);
+TEST(QuickScene, EveryRayOfThePictureMeetsASurface) {
+  const QuickScene scene(0);
   int missed = 0, all = 0;
   for (int i = 0; i < 36; ++i) {
     const SE3 T_wc = scene.T_wc(1.7 * i);
@@ -49,8 +49,8 @@ TEST(DemoScene, EveryRayOfThePictureMeetsASurface) {
 }
 
 // A surface point looks alike from two places: the pictures, the poses and the depths agree.
-TEST(DemoScene, DepthAndPoseAreThoseOfThePictures) {
-  const DemoScene scene(1, {.noise = 0, .vignetting = 0});
+TEST(QuickScene, DepthAndPoseAreThoseOfThePictures) {
+  const QuickScene scene(1, {.noise = 0, .vignetting = 0});
   const SE3 T_wa = scene.T_wc(2.0), T_wb = scene.T_wc(2.2);
   EXPECT_GT((T_wa.translation() - T_wb.translation()).norm(), 0.02);
   cv::Mat a, b;
