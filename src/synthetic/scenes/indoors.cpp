@@ -22,14 +22,16 @@ int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model mod
                            room.floor_plane());
 }
 
-void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes) {
+void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes,
+                std::optional<float> yaw) {
+  const float low = yaw ? *yaw - 0.4f : 0, high = yaw ? *yaw + 0.4f : 2 * float(M_PI);
   Eigen::AlignedBox3d box;
   for (const auto& corner : layout.plane(plane).outline) box.extend(corner);
   const Vector3f corner = box.min().cast<float>(), size = box.sizes().cast<float>();
   Tray tray(corner, {size.x(), 0, 0}, {0, size.y(), 0});
   for (const char* name : classes) {
     Model model = make_model(name, layout.seed());
-    const auto T_wo = tray.find(model, layout, 0, 2 * float(M_PI));
+    const auto T_wo = tray.find(model, layout, low, high);
     if (T_wo) layout.add_object(std::move(model), *T_wo, plane);
   }
 }

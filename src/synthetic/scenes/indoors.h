@@ -33,8 +33,10 @@ class Room {
 
 /// Stands a model with its back at a wall, `x` along it; returns its index.
 int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model model);
-/// Lays things of these classes onto a plane, as many as find room.
-void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes);
+/// Lays things of these classes onto a plane, as many as find room; their fronts towards `yaw`
+/// (radians from +x), or any way.
+void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes,
+                std::optional<float> yaw = {});
 
 Material patterned(Pattern pattern, std::uint64_t seed, float gloss = 0, float shininess = 30);
 Material plain(const Colour& colour, float gloss = 0, float shininess = 30);
