@@ -6,7 +6,7 @@ SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
 .PHONY: demo test build program bench sanitize format format-check tidy install clean
 
-# The program on the synthetic demo scene, or on your own: make demo DATA=path/to/sequence
+# The program on the synthetic desk, or on your own: make demo DATA=path/to/sequence
 demo: program
 	@scripts/demo.sh $(PROGRAM) $(DATA)
 

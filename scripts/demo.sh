@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs cairn on a sequence and shows what came out. Without an argument it runs on the demo scene,
+# Runs cairn on a sequence and shows what came out. Without an argument it runs on a synthetic desk,
 # which it renders once. Usage: scripts/demo.sh PROGRAM [SEQUENCE]
 set -euo pipefail
 
