@@ -68,7 +68,7 @@ SequenceFolder::SequenceFolder(fs::path folder, SynthSensor sensor, const Camera
   pictures_ = stereo ? folder_ / "sequences" / "00" : folder_;
   for (const char* list :
        {"rgb.txt", "depth.txt", "groundtruth.txt", "calibration.yaml", "world.json", "truth.jsonl",
-        "sequences/00/times.txt", "sequences/00/calib.txt", "poses/00.txt"}) {
+        "perception.jsonl", "sequences/00/times.txt", "sequences/00/calib.txt", "poses/00.txt"}) {
     fs::remove(folder_ / list);
   }
   make_output_folder(pictures_ / (stereo ? "image_0" : "rgb"));
@@ -163,6 +163,7 @@ void SequenceFolder::finish_kitti() {
 void SequenceFolder::finish(const std::string& world_json) {
   write_file(folder_ / "groundtruth.txt", poses_);
   if (with_truth_) write_file(folder_ / "truth.jsonl", truth_);
+  if (!detections_.empty()) write_file(folder_ / "perception.jsonl", detections_);
   write_file(folder_ / "world.json", world_json);
   sensor_ == SynthSensor::kStereo ? finish_kitti() : finish_tum();
 }

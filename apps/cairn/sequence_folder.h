@@ -22,6 +22,8 @@ class SequenceFolder {
   void add(const SE3& T_wc, const cv::Mat& picture, const cv::Mat& right, const cv::Mat& depth);
   /// Truth about the frame that was added last: a line of truth.jsonl and pictures.
   void add_truth(const FrameTruth& truth, const Scene& scene);
+  /// What was detected in the frame that was added last: a line of perception.jsonl.
+  void add_detections(const std::string& line) { detections_ += line + "\n"; }
   /// Poses, calibration, lists, and `world_json`.
   void finish(const std::string& world_json);
 
@@ -39,7 +41,7 @@ class SequenceFolder {
   double fps_, baseline_;
   int frames_ = 0;
   bool with_truth_ = false;
-  std::string list_, depth_list_, poses_, kitti_poses_, times_, truth_;
+  std::string list_, depth_list_, poses_, kitti_poses_, times_, truth_, detections_;
   SE3 first_;
 };
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "cairn/geometry/error.h"
+#include "cairn/synthetic/perception_simulator.h"
 #include "cairn/synthetic/truth_json.h"
 #include "cairn/synthetic/world.h"
 #include "commands.h"
@@ -19,7 +20,7 @@ constexpr double kBaseline = 0.54;  // metres, KITTI's
 constexpr int kCoarse = 4;          // of pictures that only tell what is visible
 
 struct Arguments {
-  std::string out, scene = "desk", sensor = "mono", truth = "all";
+  std::string out, scene = "desk", sensor = "mono", truth = "all", perception = "simulated";
   int frames = -1, width = 640, height = 480, samples = 4;
   std::uint64_t seed = 0;
   double readout_ms = 0;
@@ -54,6 +55,13 @@ bool render_frames(const Arguments& arguments, const World& world, const Camera&
   const bool all = arguments.truth == "all", deep = sensor == SynthSensor::kRgbd;
   const Camera coarse = camera.resized(std::max(16, camera.width() / kCoarse),
                                        std::max(16, camera.height() / kCoarse));
+  std::optional<PerceptionSimulator> perception;
+  if (all && arguments.perception != "none") {
+    perception.emplace(
+        world.scene(), camera,
+        arguments.perception == "exact" ? PerceptionNoise::none() : PerceptionNoise(),
+        arguments.seed);
+  }
   Progress progress(!arguments.no_progress, std::size_t(frames));
   for (int i = 0; i < frames; ++i) {
     if (interrupted()) return false;
@@ -66,6 +74,10 @@ bool render_frames(const Arguments& arguments, const World& world, const Camera&
                sensor == SynthSensor::kStereo ? world.render(camera, t, right) : cv::Mat(),
                truth.depth);
     if (all) folder.add_truth(truth, world.scene());
+    if (perception) {
+      const double timestamp = folder.timestamp(i);
+      folder.add_detections(to_json_line(perception->detect(truth, timestamp)));
+    }
     progress.show("rendered");
   }
   return true;
@@ -139,6 +151,12 @@ Action add_synth(CLI::App& program) {
                    "all: truth.jsonl, depth, normals, labels and instances of each frame; "
                    "poses: only poses and world.json")
       ->check(CLI::IsMember({"all", "poses"}))
+      ->capture_default_str();
+  command
+      ->add_option("--perception", arguments->perception,
+                   "perception.jsonl, with --truth all. simulated: what networks would say, with "
+                   "their errors; exact: the truth; none: no such file")
+      ->check(CLI::IsMember({"simulated", "exact", "none"}))
       ->capture_default_str();
   add_switches(*command, *arguments);
   command->add_flag("--no-progress", arguments->no_progress, "no progress bar");
