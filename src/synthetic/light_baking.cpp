@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cairn/synthetic/ray_caster.h"
+#include "cairn/synthetic/sample_subset.h"
 #include "cairn/synthetic/tessellation.h"
 
 namespace cairn {
@@ -15,34 +16,8 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr int kPacket = RayCaster::kPacket;
-constexpr int kGrid = 8;        // shadow rays a light: kGrid x kGrid
-constexpr int kGather = 48;     // rays for what comes from other surfaces
-constexpr float kLift = 1e-3f;  // metres off the surface, so that it does not shade itself
-
-// Where the light of a vertex is taken: a little off the surface and towards the middle of the
-// triangles around it, because corners of things lie in the corners of others.
-struct Sample {
-  Vector3f position, normal;
-};
-
-std::vector<Sample> samples_of(const Mesh& mesh) {
-  std::vector<Vector3f> middle(mesh.vertices.size(), Vector3f::Zero());
-  std::vector<int> count(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) {
-    const Vector3f centroid =
-        (mesh.vertices[t.a].position + mesh.vertices[t.b].position + mesh.vertices[t.c].position) /
-        3;
-    for (const auto i : {t.a, t.b, t.c}) middle[i] += centroid, ++count[i];
-  }
-  std::vector<Sample> samples(mesh.vertices.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto& vertex = mesh.vertices[i];
-    Vector3f at = vertex.position;
-    if (count[i] > 0) at += 0.1f * (middle[i] / float(count[i]) - at);
-    samples[i] = {at + kLift * vertex.normal, vertex.normal};
-  }
-  return samples;
-}
+constexpr int kGrid = 8;     // shadow rays a light: kGrid x kGrid
+constexpr int kGather = 48;  // rays for what comes from other surfaces
 
 // Evenly spread, weighted by the cosine to +z (a spiral; Vogel 1979 on the unit disc, lifted), and
 // sorted so that those of one packet are neighbours.
@@ -81,9 +56,10 @@ class Baker {
   // lies between their ends: where it was, interpolation does as well.
   void refine(std::size_t thing, Mesh& mesh, std::vector<Colour>& light) const {
     mesh = coarse_[thing];
-    light = direct_[thing];
     const auto samples = samples_of(mesh);
-    each(samples.size(), [&](std::size_t i) { light[i] += gathered(samples[i]); });
+    std::vector<Colour> gathered = gathered_sparsely(samples);
+    light = direct_[thing];
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += gathered[i];
     std::vector<char> rough(light.size(), 1);
     while (true) {
       const std::size_t before = light.size();
@@ -93,7 +69,7 @@ class Baker {
                differs(light[i], light[j]);
       });
       if (split.empty()) return;
-      light_from(mesh, light, before);
+      light_middles(mesh, split, light, gathered);
       rough.assign(light.size(), 0);
       for (std::size_t k = 0; k < split.size(); ++k) {
         const auto [i, j] = split[k];
@@ -144,13 +120,43 @@ class Baker {
            options_.contrast * (std::max(a.maxCoeff(), b.maxCoeff()) + 0.1f);
   }
 
-  void light_from(const Mesh& mesh, std::vector<Colour>& light, std::size_t first) const {
+  // Lights the vertices that are new in the middle of edges. What comes from other surfaces changes
+  // slowly: mostly it is what lies between the ends.
+  void light_middles(const Mesh& mesh,
+                     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& split,
+                     std::vector<Colour>& light, std::vector<Colour>& gathered) const {
+    const std::size_t before = light.size();
     const auto samples = samples_of(mesh);
     light.resize(samples.size());
-    each(samples.size() - first, [&](std::size_t i) {
-      const Sample& sample = samples[first + i];
-      light[first + i] = direct(sample) + gathered(sample);
+    gathered.resize(samples.size());
+    each(split.size(), [&](std::size_t k) {
+      const auto [i, j] = split[k];
+      const Sample& sample = samples[before + k];
+      const Colour off = (gathered[i] - gathered[j]).cwiseAbs();
+      const bool even =
+          off.maxCoeff() < options_.contrast * (0.5f * (light[i] + light[j]).maxCoeff() + 0.1f);
+      gathered[before + k] = even ? Colour(0.5f * (gathered[i] + gathered[j])) : gather(sample);
+      light[before + k] = direct(sample) + gathered[before + k];
     });
+  }
+
+  // For all samples of a thing, but with rays only for some; the others take it from those around
+  // them that face the same way (after Ward's irradiance cache, 1988).
+  std::vector<Colour> gathered_sparsely(const std::vector<Sample>& samples) const {
+    const SampleSubset subset(samples, options_.finest_cell);
+    std::vector<Colour> at_chosen(subset.chosen().size()), gathered(samples.size());
+    each(at_chosen.size(),
+         [&](std::size_t k) { at_chosen[k] = gather(samples[subset.chosen()[k]]); });
+    each(samples.size(), [&](std::size_t i) {
+      Colour sum = Colour::Zero();
+      float total = 0;
+      subset.visit(samples[i], [&](std::size_t k, float weight) {
+        sum += weight * at_chosen[k];
+        total += weight;
+      });
+      gathered[i] = total > 0 ? Colour(sum / total) : Colour::Zero();
+    });
+    return gathered;
   }
 
   Colour direct(const Sample& sample) const {
@@ -159,45 +165,49 @@ class Baker {
     return sum;
   }
 
-  // The integral over the light of both cosines over r² and pi. Half of the rays first: where they
-  // agree that all is seen or nothing is, the others are spared.
+  // The integral over the light of both cosines over r² and pi: without shadows from the first
+  // rays' ends, times the share that is seen. A quarter of the rays first; where they agree that
+  // all is seen or nothing is, the others are spared.
   float seen(const Sample& sample, const AreaLight& light) const {
+    constexpr int kFirst = 2;  // packets
     const Vector3f cross = light.u.cross(light.v);
     const float area = 4 * cross.norm();
-    const Vector3f light_normal = cross.normalized();
-    float sum = 0;
-    int cast = 0, open = 0;
-    for (int half = 0; half < 2; ++half) {
-      for (int row = half; row < kGrid; row += 2) {
-        RayCaster::Packet packet;
-        std::array<float, kPacket> weight{};
-        for (int i = 0; i < kGrid; ++i) {
-          const auto k = std::size_t(i);
-          const float a = (float(i) + 0.5f) * 2 / kGrid - 1,
-                      b = (float(row) + 0.5f) * 2 / kGrid - 1;
-          const Vector3f to = light.centre + a * light.u + b * light.v - sample.position;
-          const float r2 = to.squaredNorm(), r = std::sqrt(r2);
-          weight[k] = std::max(0.f, sample.normal.dot(to) / r) *
-                      std::max(0.f, -light_normal.dot(to) / r) / r2;
-          packet.origin[k] = sample.position;
-          packet.direction[k] = to;
-          packet.active[k] = weight[k] > 0;
-        }
+    const Vector3f light_normal = cross / (0.25f * area);
+    float all = 0, open = 0, unshadowed = 0;
+    bool blocked = false;
+    for (int p = 0; p < kGrid; ++p) {
+      RayCaster::Packet packet;
+      std::array<float, kPacket> weight{};
+      float sum = 0;
+      // A row each, and columns such that any packet is spread evenly, and the first two together.
+      for (int row = 0; row < kGrid; ++row) {
+        const auto k = std::size_t(row);
+        const int column = (3 * row + 4 * p + p / 2) % kGrid;
+        const float a = (float(column) + 0.5f) * 2 / kGrid - 1;
+        const float b = (float(row) + 0.5f) * 2 / kGrid - 1;
+        const Vector3f to = light.centre + a * light.u + b * light.v - sample.position;
+        const float r2 = to.squaredNorm();
+        weight[k] =
+            std::max(0.f, sample.normal.dot(to)) * std::max(0.f, -light_normal.dot(to)) / (r2 * r2);
+        packet.origin[k] = sample.position;
+        packet.direction[k] = to;
+        packet.active[k] = weight[k] > 0;
+        sum += weight[k];
+      }
+      if (sum > 0) {
         const auto free = caster_.free(packet);
-        for (std::size_t k = 0; k < kPacket; ++k) {
-          cast += packet.active[k], open += free[k];
-          if (free[k]) sum += weight[k];
-        }
+        for (std::size_t k = 0; k < kPacket; ++k) open += free[k] ? weight[k] : 0;
+        for (std::size_t k = 0; k < kPacket; ++k) blocked |= packet.active[k] && !free[k];
       }
-      if (half == 0 && (open == 0 || open == cast)) {
-        sum *= 2;
-        break;
-      }
+      all += sum;
+      if (p + 1 < kFirst) continue;
+      if (p + 1 == kFirst) unshadowed = all / (kFirst * kPacket);
+      if (open == 0 || !blocked) break;
     }
-    return sum * area / float(kGrid * kGrid) / float(M_PI);
+    return all > 0 ? open / all * unshadowed * area / float(M_PI) : 0;
   }
 
-  Colour gathered(const Sample& sample) const {
+  Colour gather(const Sample& sample) const {
     static const std::array<Vector3f, kGather> kDirections = gather_directions();
     const Vector3f& n = sample.normal;
     const Vector3f x =
@@ -207,6 +217,7 @@ class Baker {
     for (int first = 0; first < kGather; first += kPacket) {
       RayCaster::Packet packet;
       std::array<RayHit, kPacket> hits;
+      packet.coherent = false;
       for (std::size_t k = 0; k < kPacket; ++k) {
         const Vector3f& d = kDirections[std::size_t(first) + k];
         packet.origin[k] = sample.position;

@@ -1,10 +1,24 @@
 #include "cairn/synthetic/mip_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace cairn {
+namespace {
+
+// The exponent and, in a straight line between powers of two, what is beyond it: 0.09 off at most.
+float log2_estimate(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  return float(int(bits >> 23) - 127) + float(bits & 0x7FFFFF) * 0x1p-23f;
+}
+
+std::uint8_t root_of(float linear) {
+  return std::uint8_t(255 * std::sqrt(std::clamp(linear, 0.f, 1.f)) + 0.5f);
+}
+
+}  // namespace
 
 float linear_from_srgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
@@ -14,32 +28,27 @@ float srgb_from_linear(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-MipMap::MipMap(const Texture& texture) : texels_per_metre_(texture.texels_per_metre) {
+MipMap::MipMap(const Texture& texture)
+    : texels_per_metre_(texture.texels_per_metre),
+      repeats_x_(texture.texels_per_metre / float(texture.picture.cols)),
+      repeats_y_(texture.texels_per_metre / float(texture.picture.rows)) {
   std::array<float, 256> linear{};
   for (int i = 0; i < 256; ++i) linear[std::size_t(i)] = linear_from_srgb(float(i) / 255);
   cv::Mat3f picture(texture.picture.size());
   for (int y = 0; y < picture.rows; ++y) {
     const auto* from = texture.picture.ptr<cv::Vec3b>(y);
+    auto* to = picture.ptr<cv::Vec3f>(y);
     for (int x = 0; x < picture.cols; ++x) {
-      picture(y, x) = {linear[from[x][2]], linear[from[x][1]], linear[from[x][0]]};
+      to[x] = {linear[from[x][2]], linear[from[x][1]], linear[from[x][0]]};
     }
   }
-  const cv::Scalar mean = cv::mean(picture);
-  mean_ = Colour(float(mean[0]), float(mean[1]), float(mean[2]));
-  const cv::Size full = picture.size();
   while (true) {
-    Level level;
-    level.width = picture.cols, level.height = picture.rows;
-    level.scale_x = texels_per_metre_ * float(picture.cols) / float(full.width);
-    level.scale_y = texels_per_metre_ * float(picture.rows) / float(full.height);
-    level.texels.resize(picture.total());
+    Level level{picture.cols, picture.rows, std::vector<Texel>(picture.total())};
+    auto to = level.texels.begin();
     for (int y = 0; y < picture.rows; ++y) {
-      for (int x = 0; x < picture.cols; ++x) {
-        Texel& texel = level.texels[std::size_t(y) * std::size_t(level.width) + std::size_t(x)];
-        for (int c = 0; c < 3; ++c) {
-          texel[std::size_t(c)] =
-              std::uint8_t(std::lround(255 * std::sqrt(std::clamp(picture(y, x)[c], 0.f, 1.f))));
-        }
+      const auto* from = picture.ptr<cv::Vec3f>(y);
+      for (int x = 0; x < picture.cols; ++x, ++to) {
+        *to = {root_of(from[x][0]), root_of(from[x][1]), root_of(from[x][2]), 0};
       }
     }
     levels_.push_back(std::move(level));
@@ -49,21 +58,22 @@ MipMap::MipMap(const Texture& texture) : texels_per_metre_(texture.texels_per_me
                cv::INTER_AREA);
     picture = half;
   }
+  mean_ = Colour(picture(0, 0)[0], picture(0, 0)[1], picture(0, 0)[2]);
 }
 
 Colour MipMap::sample(const Eigen::Vector2f& uv, float footprint, float dither) const {
-  const float exponent = std::log2(std::max(footprint * texels_per_metre_, 1e-6f)) + dither;
+  const float exponent = log2_estimate(std::max(footprint * texels_per_metre_, 1e-6f)) + dither;
   const int index = std::clamp(int(std::floor(exponent)), 0, int(levels_.size()) - 1);
   const Level& level = levels_[std::size_t(index)];
-  const float x = uv.x() * level.scale_x - 0.5f, y = uv.y() * level.scale_y - 0.5f;
+  const float turns_x = uv.x() * repeats_x_, turns_y = uv.y() * repeats_y_;
+  const float x = (turns_x - std::floor(turns_x)) * float(level.width) - 0.5f;
+  const float y = (turns_y - std::floor(turns_y)) * float(level.height) - 0.5f;
   const float left = std::floor(x), top = std::floor(y);
   const float u = x - left, v = y - top;
-  auto wrapped = [](float at, int size) {
-    const int rest = int(at) % size;
-    return rest < 0 ? rest + size : rest;
-  };
-  const int x0 = wrapped(left, level.width), y0 = wrapped(top, level.height);
-  const int x1 = x0 + 1 == level.width ? 0 : x0 + 1, y1 = y0 + 1 == level.height ? 0 : y0 + 1;
+  const int x1 = left + 1 < float(level.width) ? int(left) + 1 : 0;
+  const int y1 = top + 1 < float(level.height) ? int(top) + 1 : 0;
+  const int x0 = left < 0 ? level.width - 1 : int(left);
+  const int y0 = top < 0 ? level.height - 1 : int(top);
   const Texel* rows[2] = {&level.texels[std::size_t(y0) * std::size_t(level.width)],
                           &level.texels[std::size_t(y1) * std::size_t(level.width)]};
   const float w00 = (1 - u) * (1 - v), w10 = u * (1 - v), w01 = (1 - u) * v, w11 = u * v;

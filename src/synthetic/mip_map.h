@@ -24,11 +24,11 @@ class MipMap {
   using Texel = std::array<std::uint8_t, 4>;  // red, green, blue, unused
   struct Level {
     int width = 0, height = 0;
-    float scale_x = 0, scale_y = 0;  // texels a metre
     std::vector<Texel> texels;
   };
 
   float texels_per_metre_;
+  float repeats_x_, repeats_y_;  // a metre
   std::vector<Level> levels_;
   Colour mean_;
 };

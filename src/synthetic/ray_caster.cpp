@@ -121,7 +121,7 @@ void RayCaster::cast(const Packet& rays, std::array<RayHit, kPacket>& hits) cons
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (rays.coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid, impl_->all, &context, &query);
   for (int i = 0; i < kPacket; ++i) {
     const bool found = rays.active[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;

@@ -34,6 +34,7 @@ class RayCaster {
     std::array<Eigen::Vector3f, kPacket> origin, direction;
     std::array<bool, kPacket> active{};
     float nearest = 0;
+    bool coherent = true;  ///< about the same way
   };
 
   explicit RayCaster(std::span<const Mesh> meshes);

@@ -6,6 +6,9 @@
 namespace cairn {
 namespace {
 
+constexpr float kSameNormal = 0.9998f;  // cosine of a degree
+constexpr float kFaint = 10;            // exp(-10) of a highlight's peak is not seen
+
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
@@ -75,7 +78,7 @@ Vector3f Shading::normal(const RayHit& hit, const Vector3f& direction) const {
 }
 
 Colour Shading::colour(const RayHit& hit, const Vector3f& origin, const Vector3f& direction,
-                       float pixel, float dither) const {
+                       float pixel, float dither, Highlight& nearby) const {
   if (!hit.found()) return sky(direction);
   const auto thing = std::size_t(hit.thing);
   const Mesh& mesh = lit_.meshes[thing];
@@ -100,7 +103,12 @@ Colour Shading::colour(const RayHit& hit, const Vector3f& origin, const Vector3f
   }
   Colour sum = albedo.cwiseProduct(light) + emission;
   if (surface.gloss > 0) {
-    sum += mirrored(surface, origin + hit.distance * direction, normal, direction, light);
+    if (nearby.thing != hit.thing || nearby.material != t.material ||
+        nearby.normal.dot(normal) < kSameNormal) {
+      const Vector3f at = origin + hit.distance * direction;
+      nearby = {hit.thing, t.material, normal, mirrored(surface, at, normal, direction, light)};
+    }
+    sum += nearby.colour;
   }
   return sum;
 }
@@ -118,6 +126,7 @@ Colour Shading::mirrored(const Surface& surface, const Vector3f& at, const Vecto
     const Vector3f l = to / distance, cross = lamp.u.cross(lamp.v);
     if (normal.dot(l) <= 0 || cross.dot(l) >= 0) continue;
     const float peak = std::max(0.f, normal.dot((l - direction).normalized()));
+    if (surface.shininess * (1 - peak) > kFaint) continue;
     const float solid_angle = -4 * cross.dot(l) / (distance * distance);
     const float spread = std::min(1.f, solid_angle * (surface.shininess + 2) / (2 * float(M_PI)));
     sum += lamp.radiance * (spread * std::pow(peak, surface.shininess));

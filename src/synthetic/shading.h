@@ -9,6 +9,14 @@
 
 namespace cairn {
 
+/// What a surface mirrors at one place, for others next to it.
+struct Highlight {
+  std::int32_t thing = RayHit::kNothing;
+  std::uint32_t material = 0;
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  Colour colour = Colour::Zero();
+};
+
 /// The colour of what a ray meets: the baked light times the texture, and what shiny surfaces
 /// mirror of lamps and sky.
 class Shading {
@@ -17,9 +25,10 @@ class Shading {
   Shading(const Scene& scene, const LitMeshes& lit);
 
   /// `direction`: unit, world frame. `pixel`: what a sample covers at a distance of one, in metres.
-  /// `dither`: see MipMap::sample.
+  /// `dither`: see MipMap::sample. `nearby`: of another sample of this pixel, and then of this one:
+  /// highlights are slow, and smooth within a pixel.
   Colour colour(const RayHit& hit, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                float pixel, float dither) const;
+                float pixel, float dither, Highlight& nearby) const;
   Colour sky(const Eigen::Vector3f& direction) const;
   /// The smooth normal at a hit, unit, on the side of the viewer.
   Eigen::Vector3f normal(const RayHit& hit, const Eigen::Vector3f& direction) const;

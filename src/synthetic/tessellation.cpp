@@ -14,68 +14,86 @@ class EdgeSplitter {
       : mesh_(mesh), wanted_(wanted) {}
 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> run() {
-    for (const Mesh::Triangle& t : mesh_.triangles) {
-      for (const auto& [i, j] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
-        const auto [at, fresh] = middles_.try_emplace(key(i, j), kWhole);
-        if (fresh && wanted_(std::min(i, j), std::max(i, j))) at->second = kMarked;
-      }
+    find_edges();
+    bool any = false;
+    for (Edge& edge : edges_) {
+      if (wanted_(edge.i, edge.j)) edge.middle = kMarked, any = true;
     }
+    if (!any) return {};
     while (mark_longest()) {
     }
     std::vector<Mesh::Triangle> old;
     old.swap(mesh_.triangles);
-    mesh_.triangles.reserve(old.size());
-    for (const Mesh::Triangle& triangle : old) split(triangle);
+    mesh_.triangles.reserve(2 * old.size());
+    for (std::size_t t = 0; t < old.size(); ++t) split(old[t], edges_of_[t]);
     return std::move(split_);
   }
 
  private:
-  static std::uint64_t key(std::uint32_t i, std::uint32_t j) {
-    return std::uint64_t(std::min(i, j)) << 32 | std::max(i, j);
+  struct Edge {
+    std::uint32_t i, j;  // i < j
+    float squared_length;
+    std::uint32_t middle = kWhole;
+  };
+
+  void find_edges() {
+    std::unordered_map<std::uint64_t, std::uint32_t> known;  // by both ends; only looked up
+    known.reserve(2 * mesh_.triangles.size());
+    edges_.reserve(2 * mesh_.triangles.size());
+    edges_of_.reserve(mesh_.triangles.size());
+    for (const Mesh::Triangle& t : mesh_.triangles) {
+      edges_of_.emplace_back();
+      auto* at = edges_of_.back().data();
+      for (const auto& [a, b] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
+        const std::uint32_t i = std::min(a, b), j = std::max(a, b);
+        const auto [found, fresh] =
+            known.try_emplace(std::uint64_t(i) << 32 | j, std::uint32_t(edges_.size()));
+        if (fresh) {
+          const auto& V = mesh_.vertices;
+          edges_.push_back({i, j, (V[i].position - V[j].position).squaredNorm()});
+        }
+        *at++ = found->second;
+      }
+    }
   }
 
   // Whether there was anything to mark.
   bool mark_longest() {
     bool any = false;
-    for (const Mesh::Triangle& t : mesh_.triangles) {
-      std::uint32_t* longest = nullptr;
-      float length = -1;
+    for (const auto& [ab, bc, ca] : edges_of_) {
+      Edge* longest = &edges_[ab];
       bool marked = false;
-      for (const auto& [i, j] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
-        std::uint32_t& middle = middles_[key(i, j)];
-        marked |= middle == kMarked;
-        const float squared =
-            (mesh_.vertices[i].position - mesh_.vertices[j].position).squaredNorm();
-        if (squared > length) length = squared, longest = &middle;
+      for (const auto e : {ab, bc, ca}) {
+        marked |= edges_[e].middle == kMarked;
+        if (edges_[e].squared_length > longest->squared_length) longest = &edges_[e];
       }
-      if (!marked || *longest == kMarked) continue;
-      *longest = kMarked;
+      if (!marked || longest->middle == kMarked) continue;
+      longest->middle = kMarked;
       any = true;
     }
     return any;
   }
 
   // The vertex in the middle of an edge, or none if the edge stays whole.
-  std::uint32_t middle(std::uint32_t i, std::uint32_t j) {
-    std::uint32_t& middle = middles_[key(i, j)];
-    if (middle == kMarked) {
-      const Mesh::Vertex a = mesh_.vertices[i], b = mesh_.vertices[j];
-      middle = std::uint32_t(mesh_.vertices.size());
-      split_.emplace_back(std::min(i, j), std::max(i, j));
+  std::uint32_t middle(std::uint32_t index) {
+    Edge& edge = edges_[index];
+    if (edge.middle == kMarked) {
+      const Mesh::Vertex a = mesh_.vertices[edge.i], b = mesh_.vertices[edge.j];
+      edge.middle = std::uint32_t(mesh_.vertices.size());
+      split_.emplace_back(edge.i, edge.j);
       mesh_.vertices.push_back({0.5f * (a.position + b.position),
                                 (a.normal + b.normal).normalized(), 0.5f * (a.uv + b.uv)});
     }
-    return middle;
+    return edge.middle;
   }
 
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
     mesh_.triangles.push_back({a, b, c, material});
   }
 
-  void split(const Mesh::Triangle& triangle) {
+  void split(const Mesh::Triangle& triangle, const std::array<std::uint32_t, 3>& edges) {
     std::array<std::uint32_t, 3> corner = {triangle.a, triangle.b, triangle.c};
-    std::array<std::uint32_t, 3> half = {middle(corner[0], corner[1]), middle(corner[1], corner[2]),
-                                         middle(corner[2], corner[0])};
+    std::array<std::uint32_t, 3> half = {middle(edges[0]), middle(edges[1]), middle(edges[2])};
     const int count = int(half[0] != kWhole) + int(half[1] != kWhole) + int(half[2] != kWhole);
     const std::uint32_t material = triangle.material;
     // Turned so that the first edge is split and, of two, the last one is whole.
@@ -116,7 +134,8 @@ class EdgeSplitter {
   Mesh& mesh_;
   const std::function<bool(std::uint32_t, std::uint32_t)>& wanted_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> split_;
-  std::unordered_map<std::uint64_t, std::uint32_t> middles_;  // by both ends; only looked up
+  std::vector<Edge> edges_;
+  std::vector<std::array<std::uint32_t, 3>> edges_of_;  // of triangle: ab, bc, ca
 };
 
 }  // namespace

@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kNear = 0.02;  // metres; nothing is projected from nearer
-constexpr int kShareGrid = 48;  // rays a side that measure how much of an object is seen
+// Rays a side that measure how much of an object is seen: one a pixel within these bounds.
+constexpr int kFewest = 12, kMost = 48;
 
 // Far beyond the border a lens polynomial may fold back; there the ideal camera serves.
 class WideCamera {
@@ -67,11 +68,16 @@ Box2 projected_box(const WorldThing& thing, const WideCamera& camera, const SE3&
     const Vector2d p = camera.project(X_c);
     grown.add(p.x(), p.y(), p.x(), p.y());
   };
+  bool all_in_front = true;
+  for (const Vector3d& X_c : X) {
+    if (X_c.z() >= kNear) add(X_c);
+    all_in_front &= X_c.z() >= kNear;
+  }
   for (const auto& t : mesh.triangles) {
+    if (all_in_front) break;
     const std::uint32_t corner[3] = {t.a, t.b, t.c};
     for (int i = 0; i < 3; ++i) {
       const Vector3d &a = X[corner[i]], &b = X[corner[(i + 1) % 3]];
-      if (a.z() >= kNear) add(a);
       if ((a.z() < kNear) != (b.z() < kNear)) {
         add(a + (b - a) * ((kNear - a.z()) / (b.z() - a.z())));
       }
@@ -88,15 +94,18 @@ Box2 projected_box(const WorldThing& thing, const WideCamera& camera, const SE3&
 double visible_share(const RayCaster& caster, int thing, const Box2& box, const WideCamera& camera,
                      const SE3& T_wc) {
   const Vector3f origin = T_wc.translation().cast<float>();
+  const double width = box.x1 - box.x0, height = box.y1 - box.y0;
+  const int columns = std::clamp(int(width), kFewest, kMost);
+  const int rows = std::clamp(int(height), kFewest, kMost);
   int all = 0, seen = 0;
-  for (int row = 0; row < kShareGrid; ++row) {
-    for (int column = 0; column < kShareGrid; ++column) {
-      const Vector2d pixel(box.x0 + (box.x1 - box.x0) * (column + 0.5) / kShareGrid,
-                           box.y0 + (box.y1 - box.y0) * (row + 0.5) / kShareGrid);
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Vector2d pixel(box.x0 + width * (column + 0.5) / columns,
+                           box.y0 + height * (row + 0.5) / rows);
       const Vector3f ray = (T_wc.rotation() * camera.unproject(pixel)).cast<float>();
-      if (!caster.cast_at(thing, origin, ray).found()) continue;
-      ++all;
-      seen += camera.is_in_picture(pixel) && caster.cast(origin, ray).thing == thing;
+      const bool first = camera.is_in_picture(pixel) && caster.cast(origin, ray).thing == thing;
+      seen += first;
+      all += first || caster.cast_at(thing, origin, ray).found();
     }
   }
   return all > 0 ? double(seen) / all : 0;

@@ -19,9 +19,10 @@ using Eigen::Matrix3f;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr int kTile = 32;        // pixels, a side
-constexpr double kKey = 0.26;    // mean light of a well exposed picture
-constexpr double kMemory = 0.7;  // seconds that the exposure follows behind
+constexpr int kTile = 32;            // pixels, a side
+constexpr std::size_t kCameras = 4;  // whose rays are kept
+constexpr double kKey = 0.26;        // mean light of a well exposed picture
+constexpr double kMemory = 0.7;      // seconds that the exposure follows behind
 
 std::vector<Mesh> placed_meshes(const Scene& scene) {
   std::vector<Mesh> meshes;
@@ -59,6 +60,17 @@ Vector2f offset_in_pixel(int i, int n) {
   return {(float(i) + 0.5f) / float(n) - 0.5f, y - std::floor(y) - 0.5f};
 }
 
+bool is_same_triangle(const RayHit& a, const RayHit& b) {
+  return a.thing == b.thing && a.triangle == b.triangle;
+}
+
+RayHit between(const RayHit& a, const RayHit& b) {
+  RayHit hit = a;
+  hit.distance = 0.5f * (a.distance + b.distance);
+  hit.u = 0.5f * (a.u + b.u), hit.v = 0.5f * (a.v + b.v);
+  return hit;
+}
+
 struct View {
   Matrix3f R_wc;
   Vector3f origin;
@@ -76,7 +88,7 @@ struct World::Impl {
   Shading shading;
   double usual_light = 1;  // mean over the path
   mutable std::mutex rays_mutex;
-  mutable std::shared_ptr<const RayTable> rays;
+  mutable std::vector<std::shared_ptr<const RayTable>> rays;  // of the cameras used last
 
   Impl(Scene given, const std::optional<BakeOptions>& baking)
       : scene(std::move(given)),
@@ -98,8 +110,12 @@ struct World::Impl {
 
   std::shared_ptr<const RayTable> rays_of(const Camera& camera) const {
     const std::lock_guard lock(rays_mutex);
-    if (!rays || !rays->is_of(camera)) rays = std::make_shared<const RayTable>(camera);
-    return rays;
+    for (const auto& table : rays) {
+      if (table->is_of(camera)) return table;
+    }
+    if (rays.size() == kCameras) rays.erase(rays.begin());
+    rays.push_back(std::make_shared<const RayTable>(camera));
+    return rays.back();
   }
 
   View view_at(double t, const SE3& T_bc) const {
@@ -117,8 +133,9 @@ struct World::Impl {
         const Vector3f ray((float(x) + 0.5f) / kColumns * 1.2f - 0.6f,
                            (float(y) + 0.5f) / kRows * 0.9f - 0.45f, 1);
         const Vector3f direction = view.R_wc * ray.normalized();
+        Highlight highlight;
         const Colour colour = shading.colour(caster.cast(view.origin, direction), view.origin,
-                                             direction, 1.2f / kColumns, 0);
+                                             direction, 1.2f / kColumns, 0, highlight);
         sum += std::min(2.0, double(colour.mean()));
       }
     }
@@ -136,34 +153,58 @@ struct World::Impl {
 
   void render_tile(const cv::Rect& tile, const RayTable& table, const std::vector<View>& views,
                    bool by_row, int samples, cv::Mat3f& picture) const {
+    for (int y = tile.y; y < tile.y + tile.height; y += 2) {
+      for (int x = tile.x; x < tile.x + tile.width; x += 4) {
+        render_packet({x, y}, table, views, by_row, samples, picture);
+      }
+    }
+  }
+
+  // Four by two pixels, all their samples.
+  void render_packet(const cv::Point& corner, const RayTable& table, const std::vector<View>& views,
+                     bool by_row, int samples, cv::Mat3f& picture) const {
     const float pixel = table.pixel_angle() / std::sqrt(float(samples));
+    RayCaster::Packet packet;
+    std::array<RayHit, RayCaster::kPacket> hits, before;
+    std::array<Highlight, RayCaster::kPacket> highlights;
+    std::array<Colour, RayCaster::kPacket> sums;
+    sums.fill(Colour::Zero());
     for (int s = 0; s < samples; ++s) {
       const Vector2f offset = offset_in_pixel(s, samples);
       const float dither = (float(s) + 0.5f) / float(samples);
-      for (int y = tile.y; y < tile.y + tile.height; y += 2) {
-        for (int x = tile.x; x < tile.x + tile.width; x += 4) {
-          RayCaster::Packet packet;
-          std::array<RayHit, RayCaster::kPacket> hits;
-          for (int i = 0; i < RayCaster::kPacket; ++i) {
-            const auto k = std::size_t(i);
-            const int px = x + i % 4, py = y + i / 4;
-            packet.active[k] = px < picture.cols && py < picture.rows;
-            const int row = std::min(py, picture.rows - 1);
-            const View& view = views[std::size_t(by_row ? row * samples + s : s)];
-            packet.origin[k] = view.origin;
-            packet.direction[k] =
-                view.R_wc * table.ray(std::min(px, picture.cols - 1), row, offset);
-          }
-          caster.cast(packet, hits);
-          for (int i = 0; i < RayCaster::kPacket; ++i) {
-            const auto k = std::size_t(i);
-            if (!packet.active[k]) continue;
-            const Colour colour =
-                shading.colour(hits[k], packet.origin[k], packet.direction[k], pixel, dither);
-            picture(y + i / 4, x + i % 4) +=
-                cv::Vec3f(colour.x(), colour.y(), colour.z()) / float(samples);
-          }
+      for (int i = 0; i < RayCaster::kPacket; ++i) {
+        const auto k = std::size_t(i);
+        const int x = corner.x + i % 4, y = corner.y + i / 4;
+        packet.active[k] = x < picture.cols && y < picture.rows;
+        const int row = std::min(y, picture.rows - 1);
+        const View& view = views[std::size_t(by_row ? row * samples + s : s)];
+        packet.origin[k] = view.origin;
+        packet.direction[k] = view.R_wc * table.ray(std::min(x, picture.cols - 1), row, offset);
+      }
+      caster.cast(packet, hits);
+      for (std::size_t k = 0; k < RayCaster::kPacket; ++k) {
+        if (!packet.active[k]) continue;
+        const auto colour = [&](const RayHit& hit, float covered) {
+          return shading.colour(hit, packet.origin[k], packet.direction[k], covered, dither,
+                                highlights[k]);
+        };
+        // Two samples in one triangle are shaded as one between them.
+        const bool first = s % 2 == 0 && s + 1 < samples;
+        if (first) {
+          before[k] = hits[k];
+        } else if (s % 2 == 1 && is_same_triangle(before[k], hits[k])) {
+          sums[k] += 2 * colour(between(before[k], hits[k]), float(M_SQRT2) * pixel);
+        } else {
+          sums[k] += colour(hits[k], pixel);
+          if (s % 2 == 1) sums[k] += colour(before[k], pixel);
         }
+      }
+    }
+    for (int i = 0; i < RayCaster::kPacket; ++i) {
+      const auto k = std::size_t(i);
+      const Colour mean = sums[k] / float(samples);
+      if (packet.active[k]) {
+        picture(corner.y + i / 4, corner.x + i % 4) = {mean.x(), mean.y(), mean.z()};
       }
     }
   }

@@ -8,6 +8,8 @@ namespace cairn {
 namespace {
 
 constexpr int kShift = 4;  // coordinates are drawn in sixteenths of a texel
+// A book cover then has two texels a millimetre, as a camera does from a quarter of a metre.
+constexpr int kMostTexels = 1 << 17;
 
 cv::Scalar bgr(const Colour& colour) {
   const auto encoded = [](float c) {
@@ -26,7 +28,7 @@ cv::Point fixed(const cv::Point2f& p) {
 Canvas::Canvas(float width, float height, float texels_per_metre, const Colour& background)
     : width_(width),
       height_(height),
-      scale_(std::min(texels_per_metre, std::sqrt(float(1 << 20) / (width * height)))) {
+      scale_(std::min(texels_per_metre, std::sqrt(float(kMostTexels) / (width * height)))) {
   const int columns = std::max(4, int(std::lround(width * scale_)));
   const int rows = std::max(4, int(std::lround(height * scale_)));
   picture_ = cv::Mat(rows, columns, CV_8UC3, bgr(background));
