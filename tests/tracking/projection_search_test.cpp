@@ -54,9 +54,9 @@ TEST(ProjectionSearch, AKeypointThatTwoPointsWantGoesToTheOneThatLooksMoreAlike)
 
 TEST(ProjectionSearch, RefusesWhatIsNotClearlyNearerThanTheSecond) {
   const Frame frame = row_of_keypoints(12);
-  const Descriptor between = frame.features.descriptors[11];
+  const Descriptor between = frame.features.descriptors[11], neither = {~0ULL, 0, 0, 0};
   std::vector<std::uint32_t> taken(12, kNoPoint);
-  const std::vector<ExpectedPoint> points = {expected(0, 220, 30, Descriptor{~0ULL, 0, 0, 0})};
+  const std::vector<ExpectedPoint> points = {expected(0, 220, 30, neither)};
   EXPECT_EQ(search_by_projection(frame, points, {.max_distance = 60, .ratio = 0.9}, taken), 0);
   const std::vector<ExpectedPoint> clear = {expected(0, 220, 30, between)};
   EXPECT_EQ(search_by_projection(frame, clear, {.max_distance = 60, .ratio = 0.9}, taken), 1);
