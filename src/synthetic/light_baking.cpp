@@ -12,12 +12,14 @@
 namespace cairn {
 namespace {
 
-using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr int kPacket = RayCaster::kPacket;
+// Where gathered light differs by less, in contrasts, its middle is the mean: that is far less
+// wrong than the ends differ.
+constexpr float kSmooth = 3;
 constexpr int kGrid = 8;     // shadow rays a light: kGrid x kGrid
-constexpr int kGather = 48;  // rays for what comes from other surfaces
+constexpr int kGather = 40;  // rays for what comes from other surfaces
 
 // Evenly spread, weighted by the cosine to +z (a spiral; Vogel 1979 on the unit disc, lifted), and
 // sorted so that those of one packet are neighbours.
@@ -133,8 +135,8 @@ class Baker {
       const auto [i, j] = split[k];
       const Sample& sample = samples[before + k];
       const Colour off = (gathered[i] - gathered[j]).cwiseAbs();
-      const bool even =
-          off.maxCoeff() < options_.contrast * (0.5f * (light[i] + light[j]).maxCoeff() + 0.1f);
+      const bool even = off.maxCoeff() < kSmooth * options_.contrast *
+                                             (0.5f * (light[i] + light[j]).maxCoeff() + 0.1f);
       gathered[before + k] = even ? Colour(0.5f * (gathered[i] + gathered[j])) : gather(sample);
       light[before + k] = direct(sample) + gathered[before + k];
     });

@@ -1,7 +1,7 @@
 #include "cairn/synthetic/tessellation.h"
 
 #include <array>
-#include <unordered_map>
+#include <bit>
 
 namespace cairn {
 namespace {
@@ -37,22 +37,26 @@ class EdgeSplitter {
   };
 
   void find_edges() {
-    std::unordered_map<std::uint64_t, std::uint32_t> known;  // by both ends; only looked up
-    known.reserve(2 * mesh_.triangles.size());
+    // A hash table with open addressing, at most half full.
+    std::vector<std::uint32_t> slots(std::bit_ceil(6 * mesh_.triangles.size() + 2), kWhole);
+    const auto& V = mesh_.vertices;
     edges_.reserve(2 * mesh_.triangles.size());
-    edges_of_.reserve(mesh_.triangles.size());
     for (const Mesh::Triangle& t : mesh_.triangles) {
-      edges_of_.emplace_back();
-      auto* at = edges_of_.back().data();
+      auto& edges = edges_of_.emplace_back();
+      auto edge = edges.begin();
       for (const auto& [a, b] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
         const std::uint32_t i = std::min(a, b), j = std::max(a, b);
-        const auto [found, fresh] =
-            known.try_emplace(std::uint64_t(i) << 32 | j, std::uint32_t(edges_.size()));
-        if (fresh) {
-          const auto& V = mesh_.vertices;
-          edges_.push_back({i, j, (V[i].position - V[j].position).squaredNorm()});
+        std::uint64_t at = (std::uint64_t(i) << 32 | j) * 0x9E3779B97F4A7C15ull >> 32;
+        while (true) {
+          std::uint32_t& slot = slots[at++ & (slots.size() - 1)];
+          if (slot == kWhole) {
+            slot = std::uint32_t(edges_.size());
+            edges_.push_back({i, j, (V[i].position - V[j].position).squaredNorm()});
+          }
+          if (edges_[slot].i != i || edges_[slot].j != j) continue;
+          *edge++ = slot;
+          break;
         }
-        *at++ = found->second;
       }
     }
   }

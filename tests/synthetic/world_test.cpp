@@ -177,7 +177,7 @@ TEST(World, ThingsStandOnTheirPlanes) {
   const Scene& scene = desk().scene();
   int supported = 0;
   for (const WorldThing& thing : scene.things) {
-    if (!thing.supported_by || thing.model.class_name == "book") continue;  // some lie on books
+    if (!thing.supported_by) continue;
     const WorldPlane& plane = scene.planes[std::size_t(*thing.supported_by)];
     double lowest = 1e9;
     for (const auto& vertex : thing.model.mesh.vertices) {

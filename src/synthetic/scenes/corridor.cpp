@@ -118,8 +118,10 @@ Scene make_corridor(std::uint64_t seed) {
   const auto at = plan.corners()[5];
   layout.add_object(make_model("potted plant", layout.seed()),
                     standing({at.x() + 0.35f, at.y() - 0.35f, 0}, layout.uniform(0, 6)), 0);
-  layout.add_object(make_model("fire hydrant", layout.seed()),
-                    standing({plan.width / 2 + plan.second - 0.3f, plan.first - 0.3f, 0}, 0), 0);
+  layout.add_object(make_model("suitcase", layout.seed()),
+                    standing({plan.width / 2 + plan.second - 0.5f, plan.first - 0.35f, 0},
+                             layout.uniform(-1.8f, -1.3f)),
+                    0);
   const double bend = double(plan.first - plan.width / 2);
   const Route route({{0, 1.0}, {0, bend}, {double(plan.second) - 1.2, bend}}, 0.75, {0.95, 0.55});
   const HandMotion hand(seed + 300);

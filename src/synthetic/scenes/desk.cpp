@@ -56,7 +56,9 @@ void pile_books(Layout& layout, Tray& tray, const Table& table) {
     const SE3 T_bo =
         standing({layout.uniform(-0.01f, 0.01f), layout.uniform(-0.01f, 0.01f), height},
                  layout.uniform(-0.15f, 0.15f));
-    layout.add_object(std::move(book), *base * T_bo, table.plane);
+    // Only the lowest one stands on a plane.
+    layout.add_object(std::move(book), *base * T_bo,
+                      height > 0 ? std::optional<int>() : std::optional(table.plane));
     height += thick;
   }
 }

@@ -10,8 +10,20 @@ using Eigen::Vector2f;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
+namespace {
+
+// FNV-1a (Fowler, Noll, Vo).
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xCBF29CE484222325ull;
+  for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 0x100000001B3ull;
+  return hash;
+}
+
+}  // namespace
+
+// The first draw of a seed is far from that of the next one, or neighbours would share a stream.
 Layout::Layout(const std::string& name, std::uint64_t seed)
-    : sampler_(seed * 0x9E3779B97F4A7C15ull + std::hash<char>()(name[0])) {
+    : sampler_(Sampler(seed).next() ^ hash_of(name)) {
   scene_.name = name;
   scene_.seed = seed;
 }
