@@ -88,6 +88,36 @@ TEST_P(AnyScene, HasAFreeAndSmoothPathAndFlatPlanes) {
   expect_flat_planes(scene);
 }
 
+// How often an outline runs around a point of its plane: 0 means outside.
+double turns_around(const WorldPlane& plane, const Vector3d& point) {
+  double angle = 0;
+  for (std::size_t i = 0; i < plane.outline.size(); ++i) {
+    const Vector3d a = plane.outline[i] - point;
+    const Vector3d b = plane.outline[(i + 1) % plane.outline.size()] - point;
+    angle += std::atan2(a.cross(b).dot(plane.normal), a.dot(b));
+  }
+  return std::round(angle / (2 * M_PI));
+}
+
+TEST_P(AnyScene, StandsThingsOnTheirPlanesAndNotBesideThem) {
+  const auto [name, seed] = GetParam();
+  const Scene scene = make_scene(parse_scene_kind(name), std::uint64_t(seed));
+  for (const WorldThing& thing : scene.things) {
+    if (!thing.supported_by) continue;
+    const WorldPlane& plane = scene.planes[std::size_t(*thing.supported_by)];
+    Vector3d middle = Vector3d::Zero();
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Mesh::Vertex& vertex : thing.model.mesh.vertices) {
+      const Vector3d at = thing.T_wo * Vector3d(vertex.position.cast<double>());
+      lowest = std::min(lowest, plane.normal.dot(at) + plane.d);
+      middle += at / double(thing.model.mesh.vertices.size());
+    }
+    EXPECT_NEAR(lowest, 0, 0.002) << thing.model.class_name << " on " << plane.label;
+    middle -= (plane.normal.dot(middle) + plane.d) * plane.normal;
+    EXPECT_EQ(turns_around(plane, middle), 1) << thing.model.class_name << " on " << plane.label;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, AnyScene,
                          testing::Combine(testing::Values("desk", "room", "corridor", "street"),
                                           testing::Range(0, 6)));

@@ -21,7 +21,7 @@ struct Table {
 
 // Long side along x, its back near the wall at -y.
 Table add_table(Layout& layout, const Room& room) {
-  Model table = make_model("dining table", layout.seed());
+  Model table = make_long_table(layout);
   const Eigen::AlignedBox3f box = extent(table);
   const float yaw = box.sizes().x() > box.sizes().y() ? 0 : kToViewer;
   const float depth = std::min(box.sizes().x(), box.sizes().y());

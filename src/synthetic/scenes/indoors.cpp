@@ -22,6 +22,12 @@ int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model mod
                            room.floor_plane());
 }
 
+Model make_long_table(Layout& layout) {
+  Model table = make_model("dining table", layout.seed());
+  while (table.symmetry == Symmetry::kAnyTurn) table = make_model("dining table", layout.seed());
+  return table;
+}
+
 void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes,
                 std::optional<float> yaw) {
   const float low = yaw ? *yaw - 0.4f : 0, high = yaw ? *yaw + 0.4f : 2 * float(M_PI);

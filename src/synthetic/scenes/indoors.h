@@ -33,8 +33,10 @@ class Room {
 
 /// Stands a model with its back at a wall, `x` along it; returns its index.
 int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model model);
-/// Lays things of these classes onto a plane, as many as find room; their fronts towards `yaw`
-/// (radians from +x), or any way.
+/// A table whose top is a rectangle: on a round one things would be laid beside it.
+Model make_long_table(Layout& layout);
+/// Lays things of these classes onto a rectangular plane, as many as find room; their fronts
+/// towards `yaw` (radians from +x), or any way.
 void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes,
                 std::optional<float> yaw = {});
 

@@ -31,8 +31,9 @@ void fill_wall(Layout& layout, const Room& room, int wall, float from, float to,
 
 // A laid table with chairs around it.
 void set_middle(Layout& layout, const Room& room) {
-  const float yaw = layout.uniform(-0.3f, 0.3f);
-  Model table = make_model("dining table", layout.seed());
+  // In line with the walls, because lay_things takes the table's extent along x and y.
+  const float yaw = 0.5f * float(M_PI) * float(layout.below(2));
+  Model table = make_long_table(layout);
   const Vector3f half = 0.5f * extent(table).sizes();
   const int thing =
       layout.add_object(std::move(table), standing({0, 0, 0}, yaw), room.floor_plane());
