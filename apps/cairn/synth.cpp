@@ -44,9 +44,9 @@ RenderOptions render_options(const Arguments& arguments) {
   return options;
 }
 
-// Renders all frames; false if it was interrupted.
-bool render_frames(const Arguments& arguments, const World& world, const Camera& camera, int frames,
-                   SequenceFolder& folder, VisibilityCount& visible) {
+// Returns how many frames are rendered: all, if it was not interrupted.
+int render_frames(const Arguments& arguments, const World& world, const Camera& camera, int frames,
+                  SequenceFolder& folder, VisibilityCount& visible) {
   const SynthSensor sensor = sensor_of(arguments.sensor);
   const RenderOptions options = render_options(arguments);
   RenderOptions right = options;
@@ -56,7 +56,7 @@ bool render_frames(const Arguments& arguments, const World& world, const Camera&
                                        std::max(16, camera.height() / kCoarse));
   Progress progress(!arguments.no_progress, std::size_t(frames));
   for (int i = 0; i < frames; ++i) {
-    if (interrupted()) return false;
+    if (interrupted()) return i;
     const double t = i / world.scene().fps;
     const SE3 T_wc = world.scene().path(t);
     const bool whole = all || deep;
@@ -68,7 +68,7 @@ bool render_frames(const Arguments& arguments, const World& world, const Camera&
     if (all) folder.add_truth(truth, world.scene());
     progress.show("rendered");
   }
-  return true;
+  return frames;
 }
 
 int synthesize(const Arguments& arguments) {
@@ -84,7 +84,14 @@ int synthesize(const Arguments& arguments) {
   SequenceFolder folder(out, sensor_of(arguments.sensor), camera, scene.fps, kBaseline);
   const World world(std::move(scene));
   VisibilityCount visible;
-  if (!render_frames(arguments, world, camera, frames, folder, visible)) return kInterrupted;
+  const int rendered = render_frames(arguments, world, camera, frames, folder, visible);
+  if (rendered < frames) {
+    std::printf(
+        "interrupted: %d of %d pictures are left in %s, without the list, the poses and the "
+        "world that would make them a sequence.\n",
+        rendered, frames, out.c_str());
+    return kInterrupted;
+  }
   folder.finish(world_json(world, visible));
   std::printf("%d frames with ground truth are in %s; `cairn run %s` takes them.\n", frames,
               out.c_str(), out.c_str());
