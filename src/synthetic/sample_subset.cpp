@@ -8,7 +8,8 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
-constexpr float kLift = 1e-3f;   // metres off the surface, so that it does not shade itself
+// Metres off the surface: over itself, and over posters that hang on it.
+constexpr float kLift = 2e-3f;
 constexpr float kEnough = 0.3f;  // weight of a chosen sample that speaks for another one
 constexpr float kTurn = 0.8f;    // cosine between normals from which on they have no weight
 

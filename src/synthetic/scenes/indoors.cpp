@@ -140,7 +140,7 @@ void Room::add_poster(int wall, float x, float y, float scale) {
   const auto paper = mesh.add(print);
   const auto wood = mesh.add(plain(Colour::Constant(layout_.uniform(0.03f, 0.6f)), 0.3f));
   const bool framed = layout_.chance(0.5f);
-  add_picture(mesh, {x - w / 2, y + h / 2, framed ? 0.012f : 0.003f}, {w, 0, 0}, {0, -h, 0}, paper);
+  add_picture(mesh, {x - w / 2, y + h / 2, framed ? 0.012f : 0.001f}, {w, 0, 0}, {0, -h, 0}, paper);
   if (framed) {
     for (const float side : {-1.f, 1.f}) {
       add_box(mesh, {x + side * w / 2, y, 0.01f}, {0.02f, h + 0.02f, 0.02f}, wood);
