@@ -50,6 +50,15 @@ TEST(World, SameSeedSameBytesWithAnyNumberOfThreads) {
   EXPECT_FALSE(same_bytes(again.render(camera, 2.5), again.render(camera, 2.6)));
 }
 
+TEST(World, FullyLitAndAtFullSizeTwoThreadsGiveTheBytesOfOne) {
+  const Camera camera = default_camera(SceneKind::kDesk, 640, 480, true);
+  const auto rendered = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return World(make_scene(SceneKind::kDesk, 2)).render(camera, 1);
+  };
+  EXPECT_TRUE(same_bytes(rendered(1), rendered(2)));
+}
+
 TEST(World, DepthReprojectsBetweenFrames) {
   const Camera camera = small_camera();
   const SE3 T_wa = desk().scene().path(3), T_wb = desk().scene().path(3.4);
