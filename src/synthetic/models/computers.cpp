@@ -72,7 +72,7 @@ Model make_tv(Dice& dice) {
   tv.add(box({thick, width + 2 * bezel, height + bezel + chin}, {.radius = 0.004f}), plastic,
          at(0, 0, gap));
   tv.add(cushion({0.03f, 0.55f * width, 0.6f * height}, 0.012f, 0.01f), plastic,
-         at(-thick / 2 - 0.006f, 0, gap + 0.2f * height));
+         at(-thick / 2 - 0.024f, 0, gap + 0.2f * height));  // its swollen front stays inside
   const auto screen = tv.material(screen_material(screen_content(width, height, dice), dice));
   tv.add(box({0.002f, width, height}), screen, at(thick / 2, 0, gap + chin));
   add_stand(tv, width, gap, height, plastic, dice);
