@@ -81,14 +81,14 @@ double SequenceFolder::timestamp(int frame) const {
   return (sensor_ == SynthSensor::kStereo ? 0 : kFirstTimestamp) + frame / fps_;
 }
 
-std::string SequenceFolder::frame_name() const {
-  return sensor_ == SynthSensor::kStereo ? text("%06d.png", frames_)
-                                         : text("%.6f.png", timestamp(frames_));
+std::string SequenceFolder::frame_name(int frame) const {
+  return sensor_ == SynthSensor::kStereo ? text("%06d.png", frame)
+                                         : text("%.6f.png", timestamp(frame));
 }
 
 void SequenceFolder::add(const SE3& T_wc, const cv::Mat& picture, const cv::Mat& right,
                          const cv::Mat& depth) {
-  const std::string name = frame_name(), time = text("%.6f", timestamp(frames_));
+  const std::string name = frame_name(frames_), time = text("%.6f", timestamp(frames_));
   if (sensor_ == SynthSensor::kStereo) {
     for (const auto& [folder, eye] : {std::pair("image_0", picture), std::pair("image_1", right)}) {
       cv::Mat grey;
@@ -123,10 +123,9 @@ void SequenceFolder::add_truth(const FrameTruth& truth, const Scene& scene) {
     }
     with_truth_ = true;
   }
-  --frames_;
-  const std::string name = frame_name();
-  truth_ += frame_json(timestamp(frames_), truth, scene) + "\n";
-  ++frames_;
+  const int last = frames_ - 1;
+  const std::string name = frame_name(last);
+  truth_ += frame_json(timestamp(last), truth, scene) + "\n";
   if (sensor_ != SynthSensor::kRgbd) {
     write_picture(folder_ / "depth" / name, depth_picture(truth.depth));
   }

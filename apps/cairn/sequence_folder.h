@@ -33,7 +33,7 @@ class SequenceFolder {
  private:
   void finish_tum();
   void finish_kitti();
-  std::string frame_name() const;
+  std::string frame_name(int frame) const;
 
   std::filesystem::path folder_, pictures_;
   SynthSensor sensor_;

@@ -101,4 +101,10 @@ std::vector<Eigen::Vector3d> CheckedJson::points() const {
   return points;
 }
 
+std::vector<Eigen::Vector3d> CheckedJson::outline() const {
+  const std::vector<Eigen::Vector3d> corners = points();
+  if (corners.size() < 3) refuse("an outline has three corners at least");
+  return corners;
+}
+
 }  // namespace cairn

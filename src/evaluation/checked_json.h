@@ -30,6 +30,7 @@ class CheckedJson {
   Eigen::Vector3d lengths() const;      ///< three positive numbers
   Eigen::Quaterniond rotation() const;  ///< [qx, qy, qz, qw], of about unit length
   std::vector<Eigen::Vector3d> points() const;
+  std::vector<Eigen::Vector3d> outline() const;  ///< points, three at least
 
   [[noreturn]] void refuse(const std::string& why) const;
 

@@ -28,10 +28,7 @@ std::vector<FoundPlane> read_found_planes(const std::filesystem::path& file) {
     plane.label = value.at("label").text();
     plane.normal = value.at("normal").unit_vector();
     plane.d = value.at("d").number();
-    plane.outline = value.at("outline").points();
-    if (plane.outline.size() < 3) {
-      value.at("outline").refuse("an outline has three corners at least");
-    }
+    plane.outline = value.at("outline").outline();
     planes.push_back(plane);
   }
   return planes;

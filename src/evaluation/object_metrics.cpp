@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cairn/evaluation/pairing.h"
 #include "cairn/evaluation/trajectory_error.h"
-#include "cairn/geometry/assignment.h"
 
 namespace cairn {
 namespace {
@@ -123,28 +123,23 @@ ObjectMetrics object_metrics(std::span<const TrueObject> truth, std::span<const 
       cost(i, j) = pair_cost(truth[i], found[j], options);
     }
   }
-  const std::vector<int> found_of = assign(cost);
+  const Pairing pairing = pair_landmarks(cost, kNoPair);
   ObjectMetrics metrics;
-  std::vector<char> matched(found.size(), 0);
+  metrics.duplicated = pairing.rivals.size();
+  metrics.false_objects = pairing.strangers.size();
   std::vector<ObjectMatch> scored;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool counts = truth[i].visible_frames >= options.min_visible_frames;
-    const int j = found_of[i];
-    if (j < 0 || cost(i, j) >= kNoPair) {
+    const int j = pairing.found_of[i];
+    if (j < 0) {
       metrics.missed += counts;
       continue;
     }
-    matched[j] = 1;
     metrics.matches.push_back(describe(i, truth[i], j, found[j]));
     ++(counts ? metrics.found : metrics.ignored);
     if (counts) scored.push_back(metrics.matches.back());
   }
   for (const ObjectMatch& match : scored) metrics.wrong_class += match.wrong_class;
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    if (matched[j]) continue;
-    const bool near_one = !truth.empty() && cost.col(Eigen::Index(j)).minCoeff() < kNoPair;
-    ++(near_one ? metrics.duplicated : metrics.false_objects);
-  }
   set_medians(scored, metrics);
   return metrics;
 }

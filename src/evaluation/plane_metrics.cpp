@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cairn/evaluation/pairing.h"
 #include "cairn/evaluation/trajectory_error.h"
-#include "cairn/geometry/assignment.h"
 
 namespace cairn {
 namespace {
@@ -100,28 +100,23 @@ PlaneMetrics plane_metrics(std::span<const TruePlane> truth, std::span<const Fou
       cost(i, j) = pair_cost(truth[i], found[j], options);
     }
   }
-  const std::vector<int> found_of = assign(cost);
+  const Pairing pairing = pair_landmarks(cost, kNoPair);
   PlaneMetrics metrics;
-  std::vector<char> matched(found.size(), 0);
+  metrics.duplicated = pairing.rivals.size();
+  metrics.false_planes = pairing.strangers.size();
   std::vector<PlaneMatch> scored;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool counts = truth[i].visible_frames >= options.min_visible_frames;
-    const int j = found_of[i];
-    if (j < 0 || cost(i, j) >= kNoPair) {
+    const int j = pairing.found_of[i];
+    if (j < 0) {
       metrics.missed += counts;
       continue;
     }
-    matched[j] = 1;
     PlaneMatch match = compare(truth[i], found[j]);
     match.truth = i;
     match.found = j;
     metrics.matches.push_back(match);
     if (counts) scored.push_back(match);
-  }
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    if (matched[j]) continue;
-    const bool agrees = !truth.empty() && cost.col(Eigen::Index(j)).minCoeff() < kNoPair;
-    ++(agrees ? metrics.duplicated : metrics.false_planes);
   }
   set_summary(scored, metrics);
   return metrics;

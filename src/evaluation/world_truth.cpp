@@ -32,8 +32,7 @@ TruePlane read_plane(const CheckedJson& value) {
   plane.label = value.at("label").text();
   plane.normal = value.at("normal").unit_vector();
   plane.d = value.at("d").number();
-  plane.outline = value.at("outline").points();
-  if (plane.outline.size() < 3) value.at("outline").refuse("an outline has three corners at least");
+  plane.outline = value.at("outline").outline();
   if (value.has("visible_frames")) plane.visible_frames = value.at("visible_frames").integer();
   return plane;
 }

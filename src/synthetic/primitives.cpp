@@ -7,11 +7,13 @@ namespace cairn {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-void add_quad(Mesh& mesh, const Vector3f& corner, const Vector3f& u, const Vector3f& v,
-              std::uint32_t material, const Vector2f& uv) {
+namespace {
+
+// The parallelogram corner + u, v; its texture runs by `du` and `dv` along them.
+void add_face(Mesh& mesh, const Vector3f& corner, const Vector3f& u, const Vector3f& v,
+              const Vector2f& uv, const Vector2f& du, const Vector2f& dv, std::uint32_t material) {
   const auto first = std::uint32_t(mesh.vertices.size());
   const Vector3f normal = u.cross(v).normalized();
-  const Vector2f du(u.norm(), 0), dv(0, v.norm());
   mesh.vertices.push_back({corner, normal, uv});
   mesh.vertices.push_back({corner + u, normal, uv + du});
   mesh.vertices.push_back({corner + u + v, normal, uv + du + dv});
@@ -20,17 +22,16 @@ void add_quad(Mesh& mesh, const Vector3f& corner, const Vector3f& u, const Vecto
   mesh.triangles.push_back({first, first + 2, first + 3, material});
 }
 
+}  // namespace
+
+void add_quad(Mesh& mesh, const Vector3f& corner, const Vector3f& u, const Vector3f& v,
+              std::uint32_t material, const Vector2f& uv) {
+  add_face(mesh, corner, u, v, uv, {u.norm(), 0}, {0, v.norm()}, material);
+}
+
 void add_picture(Mesh& mesh, const Vector3f& left_top, const Vector3f& right, const Vector3f& down,
                  std::uint32_t material, const Vector2f& uv) {
-  const auto first = std::uint32_t(mesh.vertices.size());
-  const Vector3f normal = down.cross(right).normalized();
-  const Vector2f du(right.norm(), 0), dv(0, down.norm());
-  mesh.vertices.push_back({left_top, normal, uv});
-  mesh.vertices.push_back({left_top + down, normal, uv + dv});
-  mesh.vertices.push_back({left_top + down + right, normal, uv + du + dv});
-  mesh.vertices.push_back({left_top + right, normal, uv + du});
-  mesh.triangles.push_back({first, first + 1, first + 2, material});
-  mesh.triangles.push_back({first, first + 2, first + 3, material});
+  add_face(mesh, left_top, down, right, uv, {0, down.norm()}, {right.norm(), 0}, material);
 }
 
 void add_box(Mesh& mesh, const Vector3f& centre, const Vector3f& size, std::uint32_t material,

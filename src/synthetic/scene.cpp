@@ -30,4 +30,16 @@ SceneKind parse_scene_kind(const std::string& name) {
               "--scene " + name + ": there is no such scene; use desk, room, corridor or street");
 }
 
+std::vector<Mesh> placed_meshes(const Scene& scene) {
+  std::vector<Mesh> meshes;
+  for (const WorldThing& thing : scene.things) {
+    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
+    T.linear() = thing.T_wo.matrix3().cast<float>();
+    T.translation() = thing.T_wo.translation().cast<float>();
+    meshes.emplace_back();
+    meshes.back().append(thing.model.mesh, T);
+  }
+  return meshes;
+}
+
 }  // namespace cairn

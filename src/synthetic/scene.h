@@ -48,6 +48,9 @@ struct Scene {
   double duration = 10;             ///< seconds until the path is at its end
 };
 
+/// The meshes of all things, in the world frame.
+std::vector<Mesh> placed_meshes(const Scene& scene);
+
 enum class SceneKind { kDesk, kRoom, kCorridor, kStreet };
 
 /// Layout, sizes, colours, textures, lights and path follow from the seed.

@@ -24,18 +24,6 @@ constexpr std::size_t kCameras = 4;  // whose rays are kept
 constexpr double kKey = 0.26;        // mean light of a well exposed picture
 constexpr double kMemory = 0.7;      // seconds that the exposure follows behind
 
-std::vector<Mesh> placed_meshes(const Scene& scene) {
-  std::vector<Mesh> meshes;
-  for (const WorldThing& thing : scene.things) {
-    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-    T.linear() = thing.T_wo.matrix3().cast<float>();
-    T.translation() = thing.T_wo.translation().cast<float>();
-    meshes.emplace_back();
-    meshes.back().append(thing.model.mesh, T);
-  }
-  return meshes;
-}
-
 BakeOptions bake_options(const Scene& scene) {
   BakeOptions options;
   if (scene.sky.maxCoeff() > 0) {  // outside, where things are larger and farther away

@@ -14,18 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-std::vector<Mesh> placed(const Scene& scene) {
-  std::vector<Mesh> meshes;
-  for (const WorldThing& thing : scene.things) {
-    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-    T.linear() = thing.T_wo.matrix3().cast<float>();
-    T.translation() = thing.T_wo.translation().cast<float>();
-    meshes.emplace_back();
-    meshes.back().append(thing.model.mesh, T);
-  }
-  return meshes;
-}
-
 // The distance to the nearest surface among many directions.
 float clearance(const RayCaster& caster, const Vector3d& at) {
   float nearest = 1e9f;
@@ -39,7 +27,7 @@ float clearance(const RayCaster& caster, const Vector3d& at) {
 }
 
 void expect_free_path(const Scene& scene) {
-  const std::vector<Mesh> meshes = placed(scene);
+  const std::vector<Mesh> meshes = placed_meshes(scene);
   const RayCaster caster(meshes);
   Vector3d last = scene.path(0).translation();
   for (double t = 0; t < scene.duration; t += 0.1) {
