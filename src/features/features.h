@@ -10,12 +10,33 @@
 
 namespace cairn {
 
+/// A colour in two bytes: five bits of red, six of green, five of blue.
+class PackedColour {
+ public:
+  PackedColour() = default;
+  PackedColour(unsigned char r, unsigned char g, unsigned char b)
+      : bits_(static_cast<std::uint16_t>((r >> 3) << 11 | (g >> 2) << 5 | b >> 3)) {}
+
+  /// Of 0 to 255, black and white as they were.
+  std::array<unsigned char, 3> rgb() const {
+    const auto widen = [this](int shift, int most) {
+      return static_cast<unsigned char>(((bits_ >> shift & most) * 255 + most / 2) / most);
+    };
+    return {widen(11, 31), widen(5, 63), widen(0, 31)};
+  }
+  bool operator==(const PackedColour&) const = default;
+
+ private:
+  std::uint16_t bits_ = 0;
+};
+
 /// An oriented FAST corner, in pixels of the full-size picture (level 0, centres at integers).
 struct Keypoint {
   float x = 0, y = 0;
   float angle = 0;            ///< radians, x towards y
   std::uint8_t response = 0;  ///< FAST's score: comparable within one octave
   std::int8_t octave = 0;
+  PackedColour colour = {};  ///< of its pixel, where somebody has looked
 
   bool operator==(const Keypoint&) const = default;
 };

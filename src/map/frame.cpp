@@ -60,11 +60,8 @@ Undistorter::Undistorter(const Camera& camera) {
   }
 }
 
-void Undistorter::apply(Features& features, const std::function<void(float, float)>& at) const {
-  if (!needed_) {
-    for (const Keypoint& kp : features.keypoints) at(kp.x, kp.y);
-    return;
-  }
+void Undistorter::apply(Features& features) const {
+  if (!needed_) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     Keypoint kp = features.keypoints[i];
@@ -76,7 +73,6 @@ void Undistorter::apply(Features& features, const std::function<void(float, floa
     const Eigen::Vector2f p = (1 - b) * ((1 - a) * row[0] + a * row[1]) +
                               b * ((1 - a) * row[columns_] + a * row[columns_ + 1]);
     if (!p.allFinite()) continue;
-    at(kp.x, kp.y);
     kp.x = p.x();
     kp.y = p.y();
     features.keypoints[kept] = kp;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -47,7 +46,6 @@ struct Frame {
   double timestamp = 0;  ///< seconds
   Features features;     ///< at pixels of the ideal pinhole camera
   KeypointGrid grid;
-  std::vector<Eigen::Matrix<unsigned char, 3, 1>> colours;  ///< RGB a keypoint
 
   std::size_t size() const { return features.size(); }
   Eigen::Vector2d pixel(std::size_t i) const {
@@ -67,9 +65,8 @@ struct Frame {
 class Undistorter {
  public:
   explicit Undistorter(const Camera& camera);
-  /// Moves the keypoints in place; those without a pinhole position are removed. `at(x, y)` is
-  /// called with the pixel in the picture of each one that stays, in order.
-  void apply(Features& features, const std::function<void(float, float)>& at) const;
+  /// Moves the keypoints in place; those without a pinhole position are removed.
+  void apply(Features& features) const;
 
  private:
   bool needed_ = false;

@@ -36,7 +36,7 @@ struct MapPoint {
   std::vector<Observation> observations;
   std::uint32_t born = 0;                ///< sequence number of the keyframe that made it
   std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
-  Eigen::Matrix<unsigned char, 3, 1> colour = Eigen::Matrix<unsigned char, 3, 1>::Zero();  ///< RGB
+  PackedColour colour;                   ///< of the keypoint that made it
 };
 
 /// Keyframes and points with their observations. Owned and changed by the mapper alone.

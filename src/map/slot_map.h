@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <deque>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,15 +23,18 @@ class SlotMap {
     }
     const std::uint32_t slot = free_.back();
     free_.pop_back();
-    slots_[slot].value.emplace(std::move(value));
+    slots_[slot].value = std::move(value);
+    slots_[slot].alive = 1;
     ++size_;
     return {slot, slots_[slot].generation};
   }
 
   void erase(IdType id) {
     assert(contains(id));
-    slots_[id.slot].value.reset();
-    ++slots_[id.slot].generation;
+    Slot& slot = slots_[id.slot];
+    slot.value = T{};
+    slot.alive = 0;
+    ++slot.generation;
     free_.push_back(id.slot);
     --size_;
   }
@@ -43,7 +45,7 @@ class SlotMap {
   const T* find(IdType id) const {
     if (id.slot >= slots_.size()) return nullptr;
     const Slot& slot = slots_[id.slot];
-    return slot.value && IdType{id.slot, slot.generation} == id ? &*slot.value : nullptr;
+    return slot.alive && IdType{id.slot, slot.generation} == id ? &slot.value : nullptr;
   }
 
   T& operator[](IdType id) {
@@ -61,13 +63,13 @@ class SlotMap {
   template <class Visitor>
   void for_each(Visitor&& visit) {
     for (std::uint32_t i = 0; i < slots_.size(); ++i) {
-      if (slots_[i].value) visit(IdType{i, slots_[i].generation}, *slots_[i].value);
+      if (slots_[i].alive) visit(IdType{i, slots_[i].generation}, slots_[i].value);
     }
   }
   template <class Visitor>
   void for_each(Visitor&& visit) const {
     for (std::uint32_t i = 0; i < slots_.size(); ++i) {
-      if (slots_[i].value) visit(IdType{i, slots_[i].generation}, *slots_[i].value);
+      if (slots_[i].alive) visit(IdType{i, slots_[i].generation}, slots_[i].value);
     }
   }
 
@@ -76,8 +78,9 @@ class SlotMap {
 
  private:
   struct Slot {
-    std::optional<T> value;
-    std::uint32_t generation = 0;
+    T value;
+    std::uint32_t generation : 31 = 0;
+    std::uint32_t alive : 1 = 0;
   };
   std::deque<Slot> slots_;
   std::vector<std::uint32_t> free_;

@@ -26,9 +26,7 @@ bool Mapper::initialize(const InitialPair& initial) {
     const PointId id = map_.add_point(p.position);
     map_.add_observation(id, first, p.keypoint1);
     map_.add_observation(id, second, p.keypoint2);
-    if (p.keypoint1 < initial.frame1->colours.size()) {
-      map_.points()[id].colour = initial.frame1->colours[p.keypoint1];
-    }
+    map_.points()[id].colour = initial.frame1->features.keypoints[p.keypoint1].colour;
     map_.update_descriptor(id);
   }
   const AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, nullptr);

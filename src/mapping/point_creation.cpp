@@ -109,7 +109,7 @@ class PairMatcher {
     map_.add_observation(id, id1_, i);
     map_.add_observation(id, id2_, j);
     MapPoint& p = map_.points()[id];
-    if (i < a_.frame.colours.size()) p.colour = a_.frame.colours[i];
+    p.colour = a_.frame.features.keypoints[i].colour;
     p.born = a_.keyframe.sequence;
     map_.update_descriptor(id);
     map_.update_geometry(id);

@@ -119,19 +119,19 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
   cv::Mat grey = picture;
   if (picture.channels() == 3) cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
   extractor.extract(grey, extracted);
-  undistorter.apply(extracted, [&](float x, float y) {
-    const int c = std::clamp(static_cast<int>(std::lround(x)), 0, picture.cols - 1);
-    const int r = std::clamp(static_cast<int>(std::lround(y)), 0, picture.rows - 1);
+  for (Keypoint& kp : extracted.keypoints) {
+    const int c = std::clamp(static_cast<int>(std::lround(kp.x)), 0, picture.cols - 1);
+    const int r = std::clamp(static_cast<int>(std::lround(kp.y)), 0, picture.rows - 1);
     if (picture.channels() == 1) {
-      frame->colours.push_back(
-          Eigen::Matrix<unsigned char, 3, 1>::Constant(picture.at<unsigned char>(r, c)));
+      const auto level = picture.at<unsigned char>(r, c);
+      kp.colour = {level, level, level};
     } else {
       const auto& bgr = picture.at<cv::Vec3b>(r, c);
-      frame->colours.emplace_back(bgr[2], bgr[1], bgr[0]);
+      kp.colour = {bgr[2], bgr[1], bgr[0]};
     }
-  });
+  }
+  undistorter.apply(extracted);
   frame->features = extracted;  // a copy that holds no more memory than it needs
-  frame->colours.shrink_to_fit();
   frame->grid.build(frame->features.keypoints);
   return frame;
 }
@@ -271,7 +271,8 @@ SlamResult Slam::finish() {
   result.trajectory_live = s.log.live_trajectory();
   result.keyframes = keyframe_trajectory(map);
   map.points().for_each([&](PointId, const MapPoint& p) {
-    result.points.push_back({p.position, p.colour, static_cast<int>(p.observations.size())});
+    const auto [r, g, b] = p.colour.rgb();
+    result.points.push_back({p.position, {r, g, b}, static_cast<int>(p.observations.size())});
   });
   return result;
 }

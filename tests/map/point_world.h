@@ -124,10 +124,12 @@ class PointWorld {
   static void add(Frame& frame, const Eigen::Vector2d& pixel, int octave, float angle,
                   const Descriptor& descriptor) {
     frame.features.keypoints.push_back({static_cast<float>(pixel.x()),
-                                        static_cast<float>(pixel.y()), angle, 50,
-                                        static_cast<std::int8_t>(octave)});
+                                        static_cast<float>(pixel.y()),
+                                        angle,
+                                        50,
+                                        static_cast<std::int8_t>(octave),
+                                        {200, 100, 50}});
     frame.features.descriptors.push_back(descriptor);
-    frame.colours.emplace_back(200, 100, 50);
   }
 
   Options options_;
