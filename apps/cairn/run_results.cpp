@@ -127,6 +127,8 @@ RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& 
   summary.restarts = result.restarts;
   summary.keyframes = result.keyframes.size();
   summary.points = result.points.size();
+  summary.reprojection = {result.reprojection.median_px, result.reprojection.p75_px,
+                          result.reprojection.p95_px, result.reprojection.observations};
   if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
   summary.problems = playback.problems;
   return summary;

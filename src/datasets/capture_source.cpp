@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/videoio/registry.hpp>
 
 #include "cairn/datasets/text_lines.h"
 #include "cairn/geometry/error.h"
@@ -15,13 +16,20 @@ double seconds_now() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
+// The one back end that is meant where it is there, else whichever can: trying all is slow, noisy
+// and leaks.
+int back_end(cv::VideoCaptureAPIs wanted) {
+  return cv::videoio_registry::hasBackend(wanted) ? wanted : cv::CAP_ANY;
+}
+
 void open_capture(cv::VideoCapture& capture, const std::string& name, bool live) {
   try {
     if (const auto index = parse_integer(name); live && index) {
-      capture.open(int(*index), cv::CAP_ANY);
+      capture.open(int(*index), back_end(cv::CAP_V4L2));
+    } else if (live && name.starts_with("/dev/")) {
+      capture.open(name, back_end(cv::CAP_V4L2));
     } else {
-      // FFmpeg knows the times of all containers; others only where it is missing.
-      if (live || !capture.open(name, cv::CAP_FFMPEG)) capture.open(name, cv::CAP_ANY);
+      capture.open(name, back_end(cv::CAP_FFMPEG));  // knows the times of all containers
     }
   } catch (const cv::Exception&) {
     capture.release();

@@ -40,6 +40,11 @@ struct RunSummary {
     std::optional<double> sigma;  ///< of the value
   };
 
+  struct Reprojection {
+    double median_px = 0, p75_px = 0, p95_px = 0;
+    std::size_t observations = 0;
+  };
+
   std::string version;
   std::string command;                                ///< as typed
   nlohmann::json options = nlohmann::json::object();  ///< every key with its value
@@ -53,6 +58,7 @@ struct RunSummary {
   std::vector<Gap> gaps;
   int restarts = 0;
   std::size_t keyframes = 0, points = 0, planes = 0, objects = 0;
+  Reprojection reprojection;  ///< of the keyframes' keypoints in the final map
   Scale scale;
   double duration_s = 0;                        ///< wall time of the run, seconds
   std::map<std::string, std::size_t> refusals;  ///< how often, by reason

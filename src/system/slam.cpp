@@ -10,6 +10,7 @@
 
 #include "cairn/system/frame_log.h"
 #include "cairn/system/mapping_schedule.h"
+#include "cairn/system/result.h"
 
 namespace cairn {
 namespace {
@@ -274,6 +275,7 @@ SlamResult Slam::finish() {
     const auto [r, g, b] = p.colour.rgb();
     result.points.push_back({p.position, {r, g, b}, static_cast<int>(p.observations.size())});
   });
+  result.reprojection = reprojection_error(map);
   return result;
 }
 

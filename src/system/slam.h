@@ -28,6 +28,12 @@ struct FrameResult {
   std::vector<Feature> features;  ///< what was seen, for overlays
 };
 
+/// Distances between keypoints and the projections of their map points, pixels of the full picture.
+struct ReprojectionError {
+  double median_px = 0, p75_px = 0, p95_px = 0;
+  std::size_t observations = 0;
+};
+
 /// The map and what led to it, for people: see the members.
 struct SlamResult {
   struct Point {
@@ -43,6 +49,7 @@ struct SlamResult {
   Trajectory trajectory_live;  ///< the same, as known at the moment of tracking
   Trajectory keyframes;
   std::vector<Point> points;
+  ReprojectionError reprojection;
   std::vector<Gap> gaps;  ///< losses and recoveries
   int restarts = 0;       ///< maps given up within their first seconds
   std::string refusal;    ///< why no map was initialised, empty if one was
