@@ -1,7 +1,7 @@
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 NO_MODULE)
 find_dependency(Ceres 2.1)
-find_dependency(OpenCV 4.5 COMPONENTS core imgproc imgcodecs videoio calib3d features2d)
+find_dependency(OpenCV 4.5 COMPONENTS core imgproc imgcodecs videoio calib3d features2d dnn)
 find_dependency(TBB)
 find_dependency(yaml-cpp)
 find_dependency(nlohmann_json)

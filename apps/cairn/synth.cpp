@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "cairn/geometry/error.h"
+#include "cairn/perception/recorded_perception.h"
 #include "cairn/synthetic/perception_simulator.h"
 #include "cairn/synthetic/truth_json.h"
 #include "cairn/synthetic/world.h"

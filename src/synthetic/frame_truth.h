@@ -4,12 +4,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace cairn {
+#include "cairn/geometry/box.h"
 
-/// Pixels, x right, y down, pixel centres at integers: the left pixel's left edge is at -0.5.
-struct Box2 {
-  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
+namespace cairn {
 
 /// An object in a picture.
 struct ObjectView {

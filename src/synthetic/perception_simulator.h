@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "cairn/geometry/camera.h"
+#include "cairn/perception/detections.h"
 #include "cairn/synthetic/frame_truth.h"
 #include "cairn/synthetic/hashed_noise.h"
 #include "cairn/synthetic/perception_noise.h"
-#include "cairn/synthetic/recorded_perception.h"
 #include "cairn/synthetic/scene.h"
 
 namespace cairn {

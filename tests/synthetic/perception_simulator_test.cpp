@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "cairn/perception/recorded_perception.h"
 #include "perception_picture.h"
 
 namespace cairn {

@@ -1,12 +1,13 @@
-#include "cairn/synthetic/recorded_perception.h"
+#include "cairn/perception/recorded_perception.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "cairn/geometry/error.h"
-#include "cairn/synthetic/mask_rle.h"
+#include "cairn/perception/mask_rle.h"
 
 namespace cairn {
 namespace {
@@ -32,11 +33,16 @@ json object_json(const DetectedObject& object) {
   return value;
 }
 
+// Never 0, which would be read back as a mistake.
+double sigma_json(double sigma) { return std::max(rounded(sigma, 1e5), 1e-5); }
+
 json plane_json(const DetectedPlane& plane) {
   const Eigen::Vector4d& p = plane.plane;
   json value = {{"plane", {p[0], p[1], p[2], p[3]}},
                 {"label", plane.label},
-                {"score", rounded(plane.score, 1e5)}};
+                {"score", rounded(plane.score, 1e5)},
+                {"sigma_angle", sigma_json(plane.sigma_angle)},
+                {"sigma_depth", sigma_json(plane.sigma_depth)}};
   if (!plane.mask.empty()) value["mask"] = mask_json(plane.mask);
   if (plane.truth) value["truth"] = *plane.truth;
   return value;
@@ -62,6 +68,13 @@ double score_of(const json& value) {
   const double score = finite(value.at("score"));
   if (!(score >= 0 && score <= 1)) refuse("a score is not between 0 and 1");
   return score;
+}
+
+double sigma_of(const json& value, const char* key, double otherwise) {
+  if (!value.contains(key)) return otherwise;
+  const double sigma = finite(value.at(key));
+  if (!(sigma > 0)) refuse(std::string("a ") + key + " is not positive");
+  return sigma;
 }
 
 std::optional<int> identity(const json& value, const char* key) {
@@ -96,8 +109,15 @@ DetectedPlane parse_plane(const json& value) {
   const auto p = four_numbers(value.at("plane"), "a plane");
   const double length = Eigen::Vector3d(p.data()).norm();
   if (!(length > 1e-9)) refuse("a plane has no normal");
-  return {Eigen::Vector4d(p.data()) / length, value.at("label").get<std::string>(), score_of(value),
-          mask_of(value), identity(value, "truth")};
+  DetectedPlane plane;
+  plane.plane = Eigen::Vector4d(p.data()) / length;
+  plane.label = value.at("label").get<std::string>();
+  plane.score = score_of(value);
+  plane.mask = mask_of(value);
+  plane.truth = identity(value, "truth");
+  plane.sigma_angle = sigma_of(value, "sigma_angle", plane.sigma_angle);
+  plane.sigma_depth = sigma_of(value, "sigma_depth", plane.sigma_depth);
+  return plane;
 }
 
 }  // namespace

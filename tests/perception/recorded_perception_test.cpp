@@ -1,76 +1,20 @@
-#include "cairn/synthetic/recorded_perception.h"
+#include "cairn/perception/recorded_perception.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "cairn/geometry/error.h"
-#include "cairn/geometry/sampler.h"
-#include "cairn/synthetic/mask_rle.h"
 
 namespace cairn {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::countNonZero(a != b) == 0;
-}
-
-cv::Mat through_text(const cv::Mat& mask) {
-  return decode_runs(runs_from_text(runs_to_text(encode_runs(mask))), mask.size());
-}
-
-TEST(MaskRle, RunsDownTheColumnsAndBeginsOutside) {
-  cv::Mat mask = (cv::Mat_<std::uint8_t>(2, 3) << 0, 255, 0,  //
-                  255, 255, 0);
-  EXPECT_THAT(encode_runs(mask), ElementsAre(1, 3, 2));
-  mask.at<std::uint8_t>(0, 0) = 255;
-  EXPECT_THAT(encode_runs(mask), ElementsAre(0, 4, 2));
-}
-
-// Computed by hand from the description in the header.
-TEST(MaskRle, WritesTheTextOfCoco) {
-  EXPECT_EQ(runs_to_text({0, 4}), "04");
-  EXPECT_EQ(runs_to_text({31}), "o0");            // 31 has the sign bit: one more character
-  EXPECT_EQ(runs_to_text({5, 7, 2, 3}), "572L");  // 3 is written as 3 − 7
-  EXPECT_EQ(runs_to_text({1000}), "Xo0");         // 1000 = 31 · 32 + 8
-  EXPECT_THAT(runs_from_text("572L"), ElementsAre(5, 7, 2, 3));
-  EXPECT_THAT(runs_from_text("Xo0"), ElementsAre(1000));
-}
-
-TEST(MaskRle, GivesBackEveryMask) {
-  Sampler sampler(1);
-  for (int trial = 0; trial < 50; ++trial) {
-    cv::Mat mask(1 + sampler.below(40), 1 + sampler.below(60), CV_8U, cv::Scalar(0));
-    for (int i = sampler.below(6); i > 0; --i) {
-      const cv::Point a(sampler.below(mask.cols), sampler.below(mask.rows));
-      const cv::Point b(sampler.below(mask.cols), sampler.below(mask.rows));
-      mask(cv::Rect(a, b)) = trial % 3 ? 255 : 0;
-    }
-    if (trial % 3 == 0) {
-      for (auto& pixel : cv::Mat_<std::uint8_t>(mask)) pixel = sampler.below(2) ? 255 : 0;
-    }
-    EXPECT_TRUE(same(through_text(mask), mask));
-  }
-  const cv::Mat empty(480, 640, CV_8U, cv::Scalar(0)), full(480, 640, CV_8U, cv::Scalar(255));
-  EXPECT_TRUE(same(through_text(empty), empty));
-  EXPECT_TRUE(same(through_text(full), full));
-  EXPECT_THAT(encode_runs(empty), ElementsAre(480 * 640));
-  EXPECT_THAT(encode_runs(full), ElementsAre(0, 480 * 640));
-}
-
-TEST(MaskRle, RefusesRunsThatAreNoMask) {
-  EXPECT_THROW(decode_runs({3}, {2, 2}), std::invalid_argument);
-  EXPECT_THROW(decode_runs({3, 2}, {2, 2}), std::invalid_argument);
-  EXPECT_THROW(runs_from_text("o"), std::invalid_argument);     // breaks off
-  EXPECT_THROW(runs_from_text("\n"), std::invalid_argument);    // below the alphabet
-  EXPECT_THROW(runs_from_text("222A"), std::invalid_argument);  // a run of 2 − 15 pixels
-  EXPECT_THROW(runs_from_text(std::string(20, 'o')), std::invalid_argument);
 }
 
 DetectedFrame example() {
@@ -80,7 +24,7 @@ DetectedFrame example() {
   mask(cv::Rect(10, 5, 20, 30)) = 255;
   frame.objects.push_back({{10.125, 20.5, 30.25, 40}, "wine glass", 0.75, {}, {}});
   frame.objects.push_back({{9.5, 4.5, 29.5, 34.5}, "cup", 0.5, mask, 3});
-  frame.planes.push_back({{0, 0.6, -0.8, 1.23456789012345}, "table", 0.875, mask, 1});
+  frame.planes.push_back({{0, 0.6, -0.8, 1.23456789012345}, "table", 0.875, mask, 1, 0.0625, 0.25});
   return frame;
 }
 
@@ -116,6 +60,9 @@ TEST(RecordedPerception, ComesBackAsItWasWritten) {
   ASSERT_EQ(back.planes.size(), 1u);
   EXPECT_LT((back.planes[0].plane - frame.planes[0].plane).norm(), 1e-15);
   EXPECT_EQ(back.planes[0].truth, 1);
+  EXPECT_EQ(back.planes[0].sigma_angle, 0.0625);
+  EXPECT_EQ(back.planes[0].sigma_depth, 0.25);
+  EXPECT_TRUE(back.depth.empty());
   EXPECT_TRUE(same(back.planes[0].mask, frame.planes[0].mask));
 }
 
@@ -127,6 +74,7 @@ TEST(RecordedPerception, ReadsMasksWithUncompressedRunsAndScalesPlanes) {
       "here");
   EXPECT_EQ(cv::countNonZero(frame.objects[0].mask), 3);
   EXPECT_EQ(frame.planes[0].plane, Eigen::Vector4d(0, 0, 1, -2));
+  EXPECT_EQ(frame.planes[0].sigma_angle, DetectedPlane().sigma_angle);
 }
 
 TEST(RecordedPerception, SaysWhereAndWhyALineIsBad) {
@@ -162,6 +110,9 @@ TEST(RecordedPerception, SaysWhereAndWhyALineIsBad) {
   EXPECT_THAT(reason(R"({"timestamp": 0, "objects": [], "planes": [
                          {"plane": [0, 0, 0, 1], "label": "wall", "score": 1}]})"),
               HasSubstr("no normal"));
+  EXPECT_THAT(reason(R"({"timestamp": 0, "objects": [], "planes": [
+                         {"plane": [0, 0, 1, 1], "label": "wall", "score": 1, "sigma_angle": 0}]})"),
+              HasSubstr("sigma_angle is not positive"));
 }
 
 TEST(RecordedPerception, ReadsAFileLineByLine) {

@@ -1,4 +1,4 @@
-#include "cairn/synthetic/mask_rle.h"
+#include "cairn/perception/mask_rle.h"
 
 #include <limits>
 #include <stdexcept>

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "cairn/perception/plane_detector.h"
+
+namespace cairn {
+
+/// Gives back what a file (perception.jsonl) says of a picture, objects included, by its time.
+class RecordedPlaneDetector : public PlaneDetector {
+ public:
+  /// Throws Error(kInput) as read_recorded_perception does. A picture takes the nearest frame not
+  /// further than `max_difference_s`, which must be below half the time between pictures.
+  explicit RecordedPlaneDetector(const std::filesystem::path& file,
+                                 double max_difference_s = 0.005);
+  /// Nothing is detected, without a problem, where no frame is near enough. The picture is not
+  /// looked at.
+  DetectedFrame detect(const PerceptionInput& input) override;
+
+ private:
+  std::vector<DetectedFrame> frames_;  // by time
+  double max_difference_s_;
+};
+
+}  // namespace cairn
