@@ -1,9 +1,12 @@
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 
 #include "cairn/datasets/groundtruth.h"
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
+#include "cairn/perception/plane_detectors.h"
+#include "cairn/perception/recording_detector.h"
 #include "cairn/system/option_table.h"
 #include "cairn/system/slam.h"
 #include "commands.h"
@@ -18,6 +21,7 @@ namespace {
 
 struct Arguments {
   std::string sequence, layout = "auto", sensor = "mono", landmarks, planes, objects;
+  std::string models, recorded, record, planenet;
   std::string pace, threads, seed, camera, calibration, config, out, groundtruth;
   std::vector<std::string> settings;
   bool force = false, no_progress = false, video = false;
@@ -34,13 +38,13 @@ void check_available(const Arguments& arguments) {
            ": this version works with one colour camera only; give "
            "--sensor mono");
   }
-  if (!arguments.landmarks.empty() && arguments.landmarks != "points") {
+  if (arguments.landmarks == "full" || arguments.landmarks == "po") {
     refuse("--landmarks " + arguments.landmarks +
-           ": the networks for planes and objects are not there in this version; give --landmarks "
-           "points");
+           ": this version maps no objects; give --landmarks points, pp or ppm");
   }
-  if (!arguments.planes.empty() && arguments.planes != "none") {
-    refuse("--planes " + arguments.planes + ": this version maps no planes; give --planes none");
+  if (arguments.planes == "rgbd") {
+    refuse(
+        "--planes rgbd: this version reads no measured depth; give --planes network or recorded");
   }
   if (!arguments.objects.empty() && arguments.objects != "none") {
     refuse("--objects " + arguments.objects +
@@ -57,6 +61,7 @@ Options read_options(const Arguments& arguments) {
   if (!arguments.pace.empty()) table.set("pace", arguments.pace);
   if (!arguments.threads.empty()) table.set("threads", arguments.threads);
   if (!arguments.seed.empty()) table.set("seed", arguments.seed);
+  if (!arguments.landmarks.empty()) table.set("landmarks", arguments.landmarks);
   return options;
 }
 
@@ -66,6 +71,45 @@ Sequence open(const Arguments& arguments) {
   options.calibration = arguments.calibration;
   options.intrinsics = arguments.camera;
   return open_sequence(arguments.sequence, options);
+}
+
+// The detector that was asked for. Where nobody asked: networks if somebody has said where they
+// are, else none, and the map is of points.
+std::unique_ptr<PlaneDetector> find_planes(const Arguments& arguments, const Camera& camera,
+                                           RunDescription& description, Progress& progress) {
+  Landmarks& landmarks = description.options.landmarks;
+  const bool none = arguments.planes == "none", points = landmarks == Landmarks::kPoints;
+  if (points && !none && !arguments.planes.empty()) {
+    refuse("--planes " + arguments.planes + ": a map of points has no planes; give --landmarks pp");
+  }
+  if (none && !arguments.landmarks.empty() && !points) {
+    refuse("--landmarks " + arguments.landmarks +
+           ": without planes there is only a map of points; give --landmarks points, or leave out "
+           "--planes none");
+  }
+  if (points || none) {
+    landmarks = Landmarks::kPoints;
+    return nullptr;
+  }
+  // Networks that nobody asked for may be missing; anything else that is wrong is said.
+  const bool asked =
+      !arguments.planes.empty() || !arguments.landmarks.empty() || !arguments.models.empty();
+  const char* folder = std::getenv("CAIRN_MODELS");
+  if (!asked && (folder == nullptr || *folder == 0)) {
+    progress.note("no networks are given (--models, CAIRN_MODELS), so the map is of points alone");
+    landmarks = Landmarks::kPoints;
+    return nullptr;
+  }
+  PlaneDetectorSources sources;
+  sources.models = arguments.models;
+  sources.recorded = arguments.recorded.empty()
+                         ? std::filesystem::path(arguments.sequence) / "perception.jsonl"
+                         : std::filesystem::path(arguments.recorded);
+  sources.planenet_card = arguments.planenet;
+  auto detector =
+      make_plane_detector(arguments.planes.empty() ? "network" : arguments.planes, camera, sources);
+  if (arguments.record.empty()) return detector;
+  return std::make_unique<RecordingDetector>(std::move(detector), arguments.record);
 }
 
 // A ground truth that was asked for must be readable; one that lies in the sequence need not.
@@ -109,15 +153,13 @@ int run(const Arguments& arguments, const std::string& typed) {
   description.camera = camera;
 
   Progress progress(!arguments.no_progress, sequence.frames->size());
-  if (arguments.landmarks.empty()) {
-    progress.note("no networks are there, so the map is of points alone (--landmarks points)");
-  }
+  std::unique_ptr<PlaneDetector> detector = find_planes(arguments, camera, description, progress);
   description.groundtruth = find_groundtruth(arguments, sequence, progress);
   description.folder = prepare_output_folder(arguments.out, sequence.name, arguments.force);
 
   remember_interrupts();
   RunRecorder recorder(description, arguments.video, sequence.fps);
-  Slam slam(camera, description.options);
+  Slam slam(camera, description.options, std::move(detector));
   const Playback playback = play(*sequence.frames, slam, description.options.pace,
                                  [&](const cv::Mat& image, const FrameResult& result) {
                                    progress.show(result.record);
@@ -159,10 +201,26 @@ void add_input_options(CLI::App& command, Arguments& a) {
 
 void add_system_options(CLI::App& command, Arguments& a) {
   command
-      .add_option("--landmarks", a.landmarks, "what the map is made of; only points is there yet")
+      .add_option("--landmarks", a.landmarks,
+                  "what the map is made of: points, points and planes (pp), and Manhattan edges "
+                  "(ppm); objects are not there yet")
       ->check(CLI::IsMember({"full", "points", "pp", "ppm", "po"}));
-  command.add_option("--planes", a.planes, "where planes come from; only none is there yet")
+  command
+      .add_option("--planes", a.planes,
+                  "where planes come from; default: network where the networks are found")
       ->check(CLI::IsMember({"network", "rgbd", "planenet", "recorded", "none"}));
+  command.add_option("--models", a.models, "the folder of the networks; default: $CAIRN_MODELS")
+      ->type_name("DIR");
+  command
+      .add_option("--perception", a.recorded,
+                  "recorded perception; default: perception.jsonl of the sequence")
+      ->type_name("FILE");
+  command
+      .add_option("--record-perception", a.record,
+                  "write down what the detectors say, for --perception of a later run")
+      ->type_name("FILE");
+  command.add_option("--planenet-card", a.planenet, "the card of the network of --planes planenet")
+      ->type_name("CARD");
   command.add_option("--objects", a.objects, "where objects come from; only none is there yet");
   command
       .add_option("--pace", a.pace,

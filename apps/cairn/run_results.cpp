@@ -11,6 +11,7 @@
 #include "cairn/output/frames_csv.h"
 #include "cairn/output/map_ply.h"
 #include "cairn/output/overlay.h"
+#include "cairn/output/planes_json.h"
 #include "cairn/output/plots.h"
 #include "cairn/output/summary.h"
 #include "cairn/output/trajectory_file.h"
@@ -38,6 +39,8 @@ nlohmann::json options_json(Options options) {
   return json;
 }
 
+bool with_planes(const RunDescription& run) { return run.options.landmarks != Landmarks::kPoints; }
+
 void write_map(const fs::path& file, const SlamResult& result) {
   Eigen::AlignedBox3d space;
   for (const StampedPose& pose : result.trajectory) space.extend(pose.T_wc.translation());
@@ -45,6 +48,9 @@ void write_map(const fs::path& file, const SlamResult& result) {
   const double size = space.isEmpty() ? 1 : std::max(space.diagonal().norm(), 1e-6);
   PlyModel model;
   for (const auto& point : result.points) model.add_point(point.position, point.colour);
+  for (const MappedPlane& plane : result.planes) {
+    model.add_polygon(plane.outline, plane_colour(std::size_t(plane.id)));
+  }
   model.add_path(result.trajectory, {230, 60, 40}, 0.002 * size);
   for (const StampedPose& pose : result.keyframes) {
     model.add_camera(pose.T_wc, 0.02 * size, {40, 110, 230});
@@ -87,7 +93,11 @@ PlotScene plot_scene(const RunDescription& run, const SlamResult& result,
     scene.view = PlanView::from_cameras(scene.truth);
   }
   scene.title = run.name;
-  scene.unit = report ? "m" : "map units";
+  for (const MappedPlane& plane : result.planes) {
+    scene.planes.push_back({plane.outline, plane.label, plane_colour(std::size_t(plane.id))});
+    for (Eigen::Vector3d& corner : scene.planes.back().outline) corner = align * corner;
+  }
+  scene.unit = report || result.scale.known() ? "m" : "map units";
   return scene;
 }
 
@@ -127,6 +137,9 @@ RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& 
   summary.restarts = result.restarts;
   summary.keyframes = result.keyframes.size();
   summary.points = result.points.size();
+  summary.planes = result.planes.size();
+  summary.scale = {result.scale.how, result.scale.value,
+                   result.scale.known() ? std::optional(result.scale.sigma) : std::nullopt};
   summary.reprojection = {result.reprojection.median_px, result.reprojection.p75_px,
                           result.reprojection.p95_px, result.reprojection.observations};
   if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
@@ -195,6 +208,7 @@ void RunRecorder::write(const std::vector<FrameRecord>& frames, const SlamResult
   write_trajectory(folder / "trajectory_live.txt", result.trajectory_live);
   write_trajectory(folder / "keyframes.txt", result.keyframes);
   write_frames_csv(folder / "frames.csv", frames);
+  if (with_planes(run_)) write_planes(folder / "planes.json", result.planes);
   write_map(folder / "map.ply", result);
   const auto report = compare(run_, frames, result);
   write_plots(folder / "plots", run_, result, report);
@@ -222,6 +236,13 @@ void print_outcome(const RunDescription& run, const std::vector<FrameRecord>& fr
   }
   std::printf("  keyframes  %8zu\n", result.keyframes.size());
   std::printf("  points     %8zu\n", result.points.size());
+  if (with_planes(run)) {
+    std::printf("  planes     %8zu\n", result.planes.size());
+    if (result.scale.known()) {
+      std::printf("  scale      %8.3f  metres a map unit, from %s (+- %.0f %%)\n",
+                  result.scale.value, result.scale.how.c_str(), 100 * result.scale.sigma);
+    }
+  }
   if (total != stages.end()) {
     std::printf("  tracking   %8.1f  ms a frame (median), %.1f ms (95th percentile)\n",
                 total->second.median_ms, total->second.p95_ms);

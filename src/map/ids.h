@@ -30,5 +30,7 @@ using KeyframeId = Id<struct KeyframeTag>;
 /// Of the millions that a map may hold, each is written down many times: so it is small. After 256
 /// births in one slot an id comes again, so one that is kept for long needs a second look.
 using PointId = Id<struct PointTag, 24>;
+/// Rooms have dozens of planes; each of thousands of points may say on which it lies.
+using PlaneId = Id<struct PlaneTag, 16>;
 
 }  // namespace cairn

@@ -17,6 +17,10 @@ KeyframeId Map::add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc
 }
 
 void Map::erase_keyframe(KeyframeId id) {
+  if (!planes_.empty()) {
+    const auto neighbours = covisible(id, 1);
+    move_planes(id, neighbours.empty() ? KeyframeId{} : neighbours.front().first);
+  }
   const std::vector<PointId> seen = keyframes_[id].points;
   for (const PointId point : seen) {
     if (point.valid()) erase_observation(point, id);
@@ -32,6 +36,7 @@ PointId Map::add_point(const Eigen::Vector3d& position) {
 }
 
 void Map::erase_point(PointId id) {
+  set_plane_of(id, {});
   for (const Observation& o : points_[id].observations) {
     keyframes_[o.keyframe].points[o.keypoint] = {};
   }
@@ -64,6 +69,7 @@ void Map::merge_points(PointId from, PointId into) {
   MapPoint& target = points_[into];
   target.visible += points_[from].visible;
   target.found += points_[from].found;
+  if (!target.plane.valid()) set_plane_of(into, points_[from].plane);
   erase_point(from);
   for (const Observation& o : moved) {
     if (keypoint_of(into, o.keyframe) < 0) add_observation(into, o.keyframe, o.keypoint);

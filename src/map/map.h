@@ -8,6 +8,7 @@
 #include "cairn/geometry/se3.h"
 #include "cairn/map/frame.h"
 #include "cairn/map/ids.h"
+#include "cairn/map/plane_landmark.h"
 #include "cairn/map/slot_map.h"
 
 namespace cairn {
@@ -37,9 +38,10 @@ struct MapPoint {
   std::uint32_t born = 0;                ///< sequence number of the keyframe that made it
   std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
   PackedColour colour;                   ///< of the keypoint that made it
+  PlaneId plane;                         ///< on which it lies, if on one
 };
 
-/// Keyframes and points with their observations. Owned and changed by the mapper alone.
+/// Keyframes, points and planes with their observations. Owned and changed by the mapper alone.
 class Map {
  public:
   explicit Map(const View& view) : view_(view) {}
@@ -54,8 +56,15 @@ class Map {
   SlotMap<MapPoint, PointId>& points() { return points_; }
   const SlotMap<MapPoint, PointId>& points() const { return points_; }
 
+  SlotMap<PlaneLandmark, PlaneId>& planes() { return planes_; }
+  const SlotMap<PlaneLandmark, PlaneId>& planes() const { return planes_; }
+  /// Pairs of planes in order of ids; pairs of which a plane is erased go with it.
+  std::vector<RelatedPlanes>& relations() { return relations_; }
+  const std::vector<RelatedPlanes>& relations() const { return relations_; }
+
   KeyframeId add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc);
-  /// Erases a keyframe and its observations; points that nobody else sees go with it.
+  /// Erases a keyframe and its observations; points that nobody else sees go with it. Planes that
+  /// it saw, or that are relative to it, move to the keyframe that shares most points with it.
   void erase_keyframe(KeyframeId id);
 
   PointId add_point(const Eigen::Vector3d& position);
@@ -74,6 +83,19 @@ class Map {
   void update_geometry(PointId id);
   void update_descriptor(PointId id);
 
+  /// A new landmark with its first observation.
+  PlaneId add_plane(KeyframeId keyframe, const SeenPlane& seen);
+  /// The keyframe saw a plane of the map: one more observation, votes and outline.
+  void observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen);
+  void erase_plane(PlaneId id);
+  /// Says that a point lies on a plane, or (invalid id) on none.
+  void set_plane_of(PointId point, PlaneId plane);
+  /// `from` becomes part of `into`.
+  void merge_planes(PlaneId from, PlaneId into);
+  /// In the world as it is now.
+  Plane plane_in_world(PlaneId id) const;
+  std::vector<Eigen::Vector3d> outline_in_world(PlaneId id) const;
+
   /// Keyframes that share at least `min_shared` points with this one, the most first (then in order
   /// of making).
   std::vector<std::pair<KeyframeId, int>> covisible(KeyframeId id, int min_shared) const;
@@ -86,10 +108,14 @@ class Map {
   KeyframeId first() const { return first_; }
 
  private:
+  void move_planes(KeyframeId from, KeyframeId to);
+
   View view_;
   LensCorrection lens_;
   SlotMap<Keyframe, KeyframeId> keyframes_;
   SlotMap<MapPoint, PointId> points_;
+  SlotMap<PlaneLandmark, PlaneId> planes_;
+  std::vector<RelatedPlanes> relations_;
   std::uint32_t next_sequence_ = 0;
   KeyframeId first_, newest_;
 };

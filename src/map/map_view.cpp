@@ -77,6 +77,10 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
     const MapPoint& p = map.points()[id];
     view->points.push_back({id, p.position, p.normal, p.base_distance, p.descriptor});
   }
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+    view->planes.push_back(
+        {id, map.plane_in_world(id), landmark.label(), map.outline_in_world(id)});
+  });
   std::sort(view->keyframes.begin(), view->keyframes.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   for (const PointId p : map.keyframes()[reference].points) {

@@ -23,6 +23,13 @@ struct MapView {
     SE3 T_wc;
   };
 
+  struct PlanePose {
+    PlaneId id;
+    Plane plane;  ///< world
+    std::string label;
+    std::vector<Eigen::Vector3d> outline;  ///< world
+  };
+
   std::uint64_t version = 0;
   KeyframeId reference;  ///< the keyframe it was made around
   std::shared_ptr<const Frame> reference_frame;
@@ -32,6 +39,7 @@ struct MapView {
   std::size_t map_keyframes = 0, map_points = 0;  ///< of the whole map
   std::vector<Point> points;                      ///< in order of ids
   std::vector<KeyframePose> keyframes;            ///< local ones, in order of ids
+  std::vector<PlanePose> planes;                  ///< of the whole map, in order of ids
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kMinInitialPoints = 50;
 constexpr double kMinFoundRatio = 0.25;  // of the frames that should see a point
+constexpr double kUnknownScale = 0.1;    // of a picture, relative
 constexpr std::uint32_t kProbation = 3;  // keyframes
 
 }  // namespace
@@ -70,6 +71,25 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   return current_;
 }
 
+void Mapper::join(const KeyframePerception& seen) {
+  KeyframeId keyframe;
+  map_.keyframes().for_each([&](KeyframeId id, const Keyframe& k) {
+    if (k.frame == seen.frame) keyframe = id;
+  });
+  if (!keyframe.valid()) return;
+  const PictureScale picture = align_picture(map_, keyframe, seen);
+  if (picture.usable) scale_.add(picture.scale, seen.sigma_scale);
+  const double scale = picture.usable ? picture.scale : scale_.picture_scale();
+  if (!(scale > 0)) return;
+  // A picture that cannot be compared with the map is no surer than its detector's scale.
+  const double log_error =
+      picture.usable ? picture.log_error : std::max(seen.sigma_scale, kUnknownScale);
+  map_planes(map_, keyframe, seen, scale, log_error, options_.planes);
+  spdlog::debug("planes: {} in the picture at {:.3f}, {} in the map; {:.3f} units a metre",
+                seen.planes.size(), seen.frame->timestamp, map_.planes().size(), scale);
+  publish(current_);
+}
+
 void Mapper::adjust(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() > 2) {
     const AdjustmentSummary s = adjust_locally(map_, current_, options_.adjustment, abort);
@@ -81,6 +101,7 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
 
 AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() < 2) return {};
+  remove_unconfirmed_planes(map_, options_.planes);
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);

@@ -12,6 +12,8 @@
 #include "cairn/map/map.h"
 #include "cairn/map/map_view.h"
 #include "cairn/mapping/buried_keyframe.h"
+#include "cairn/mapping/metric_scale.h"
+#include "cairn/mapping/plane_mapping.h"
 #include "cairn/optimization/map_adjustment.h"
 
 namespace cairn {
@@ -24,6 +26,7 @@ struct MappingOptions {
   double redundancy = 0.8;        ///< share of its points seen elsewhere that makes a keyframe go
   bool refine_lens = true;        ///< the full adjustment estimates what the calibration got wrong
   AdjustmentOptions adjustment;
+  PlaneMappingOptions planes;
 };
 
 /// A frame that is to become a keyframe, as tracked.
@@ -42,6 +45,9 @@ class Mapper {
   bool initialize(const InitialPair& initial);
   /// Takes a keyframe in: its points, new points, fusion; publishes. `adjust` does the rest.
   KeyframeId insert(const KeyframeCandidate& candidate);
+  /// What perception says of a keyframe, which may be culled by now: then nothing happens.
+  /// Publishes.
+  void join(const KeyframePerception& seen);
   /// Local adjustment and culling after an insertion; publishes. Returns early when `abort` is set.
   void adjust(const std::atomic<bool>* abort);
   /// The end: fusion over the whole map, then full adjustment.
@@ -53,6 +59,7 @@ class Mapper {
   /// The newest snapshot.
   const std::shared_ptr<const MapView>& view() const { return view_; }
   const Map& map() const { return map_; }
+  ScaleEstimate scale() const { return scale_.estimate(); }
   /// Keyframes that may show the same place: the `count` most alike, best first.
   std::vector<KeyframeId> similar_keyframes(const Features& features, int count) const;
   const std::vector<BuriedKeyframe>& buried() const { return buried_; }
@@ -64,6 +71,7 @@ class Mapper {
 
   MappingOptions options_;
   Map map_;
+  MetricScale scale_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
   KeyframeId current_;

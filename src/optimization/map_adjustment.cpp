@@ -10,11 +10,13 @@
 #include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
+#include "cairn/optimization/plane_blocks.h"
 #include "cairn/optimization/se3_manifold.h"
 
 namespace cairn {
 namespace {
 
+constexpr int kLensGroup = 5;    // after those of the planes; see PlaneBlocks
 constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
 
 // How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
@@ -27,12 +29,14 @@ constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 
 class Adjustment {
  public:
   Adjustment(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
-             std::vector<PointId> points, bool refine_lens = false)
+             std::vector<PointId> points, const PlaneFactorOptions& planes,
+             bool refine_lens = false)
       : map_(map),
         refine_lens_(refine_lens),
         lens_(map.lens()),
         keyframes_(std::move(free)),
-        points_(std::move(points)) {
+        points_(std::move(points)),
+        planes_(map, planes) {
     free_count_ = keyframes_.size();
     keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
     for (std::size_t i = 0; i < keyframes_.size(); ++i) {
@@ -88,6 +92,7 @@ class Adjustment {
     };
     for (std::size_t i = 0; i < free_count_; ++i) move(&pose_values_[7 * i + 4]);
     for (std::size_t i = 0; i < points_.size(); ++i) move(&point_values_[3 * i]);
+    planes_.scale(scale);
   }
 
   void write_back() {
@@ -98,6 +103,7 @@ class Adjustment {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       map_.points()[points_[i]].position = Eigen::Vector3d::Map(&point_values_[3 * i]);
     }
+    planes_.write_back(map_);
   }
 
   // Erases the observations that lie beyond the gate; to be called after write_back.
@@ -162,7 +168,7 @@ class Adjustment {
       problem_->AddParameterBlock(&point_values_[3 * i], 3);
       ordering_->AddElementToGroup(&point_values_[3 * i], 0);
     }
-    if (refine_lens_) ordering_->AddElementToGroup(lens_.values.data(), 1);
+    if (refine_lens_) ordering_->AddElementToGroup(lens_.values.data(), kLensGroup);
     for (const Edge& edge : observations_) {
       const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
       const Pinhole& pinhole = map_.view().pinhole();
@@ -177,8 +183,24 @@ class Adjustment {
         problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
       }
     }
+    if (!map_.planes().empty()) add_planes();
     hold_unit();
     if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
+  }
+
+  void add_planes() {
+    planes_.add_to(
+        *problem_, *ordering_,
+        [this](KeyframeId id) {
+          const int i = id.slot < index_of_slot_.size() ? index_of_slot_[id.slot] : -1;
+          return i < 0 ? nullptr : &pose_values_[std::size_t(7 * i)];
+        },
+        [this](PointId id) {
+          const auto at = std::lower_bound(points_.begin(), points_.end(), id);
+          return at == points_.end() || *at != id
+                     ? nullptr
+                     : &point_values_[3 * std::size_t(at - points_.begin())];
+        });
   }
 
   // With one keyframe held, the scale hangs on the distance to the keyframe that is farthest from
@@ -225,6 +247,7 @@ class Adjustment {
   std::deque<LensPointFactor> lens_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
+  PlaneBlocks planes_;
   ceres::HuberLoss loss_{std::sqrt(kGate)};
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;
@@ -296,7 +319,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
     fixed.push_back(*oldest);
     free.erase(oldest);
   }
-  Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points));
+  Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options.planes);
   AdjustmentSummary summary = adjustment.solve(options.local_iterations, 1e-4, abort);
   if (!summary.usable) return summary;
   adjustment.write_back();
@@ -316,7 +339,8 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     std::vector<PointId> points;
     map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
     if (free.empty() || points.empty()) return summary;
-    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), lens);
+    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options.planes,
+                          lens);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

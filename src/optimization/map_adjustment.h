@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cairn/map/map.h"
+#include "cairn/optimization/factor_options.h"
 
 namespace cairn {
 
@@ -13,12 +14,13 @@ struct AdjustmentOptions {
   int fixed = 30;   ///< keyframes that hold it, at most
   int local_iterations = 8;
   int full_iterations = 40;
+  PlaneFactorOptions planes;
 };
 
 struct AdjustmentSummary {
   bool usable = false;
   int keyframes = 0, points = 0, observations = 0, outliers = 0, iterations = 0;
-  double initial_rms = 0, final_rms = 0;  ///< reprojection, in σ, of the robust cost
+  double initial_rms = 0, final_rms = 0;  ///< √(robust cost of all factors / observations)
   std::string to_string() const;
 };
 

@@ -13,6 +13,9 @@ namespace cairn {
 /// Red, green, blue.
 using Rgb = Eigen::Matrix<unsigned char, 3, 1>;
 
+/// A colour that differs from that of the neighbouring ids.
+Rgb plane_colour(std::size_t id);
+
 /// A coloured model in the world frame, metres, for MeshLab, CloudCompare and Blender. Lines are
 /// drawn as rows of points, which all of them show.
 class PlyModel {

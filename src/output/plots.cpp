@@ -197,6 +197,16 @@ cv::Mat draw_map_plot(const PlotScene& scene) {
   Chart chart = plan_chart(scene);
   chart.title = scene.title.empty() ? "Map from above" : "Map of " + scene.title + " from above";
   add_points(scene, chart);
+  for (const PlotScene::PlaneOutline& plane : scene.planes) {
+    if (plane.outline.empty()) continue;
+    ChartSeries edge{
+        plane.label, {}, cv::Scalar(plane.colour.z(), plane.colour.y(), plane.colour.x())};
+    for (const Vector3d& corner : plane.outline) {
+      edge.points.push_back(from_above(scene.view, corner));
+    }
+    edge.points.push_back(edge.points.front());
+    chart.series.push_back(std::move(edge));
+  }
   ChartSeries path{"keyframes", {}, colours::kAccent};
   for (const StampedPose& pose : scene.keyframes) {
     path.points.push_back(from_above(scene.view, pose.T_wc.translation()));

@@ -37,6 +37,12 @@ struct PlotScene {
   Trajectory keyframes;
   std::vector<Eigen::Vector3d> points;
   std::vector<Rgb> point_colours;  ///< of each point; empty: by height
+  struct PlaneOutline {
+    std::vector<Eigen::Vector3d> outline;
+    std::string label;
+    Rgb colour;
+  };
+  std::vector<PlaneOutline> planes;
   PlanView view;
   std::string title;       ///< the sequence
   std::string unit = "m";  ///< of lengths; "map units" where the scale is free

@@ -40,11 +40,11 @@ struct DetectedFrame {
   std::vector<DetectedObject> objects;
   std::vector<DetectedPlane> planes;
   /// CV_32F, metres along the optical axis, of the picture's size or smaller, 0 where unknown;
-  /// empty where the detector has none. Not recorded, nor are the following.
+  /// empty where the detector has none. Recorded coarsely.
   cv::Mat depth;
   /// Of the logarithm of the one scale that depth and planes share; 0 where it was measured.
   double sigma_scale = 0;
-  std::string problem;  ///< why the picture could not be used; empty: it could
+  std::string problem;  ///< why the picture could not be used; empty: it could. Not recorded
 };
 
 }  // namespace cairn

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "cairn/geometry/error.h"
@@ -14,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 
+const cv::Size kRecordedDepth(40, 30);
 constexpr int kLargestSide = 1 << 15;  // of a mask, pixels
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps; }
@@ -46,6 +48,21 @@ json plane_json(const DetectedPlane& plane) {
   if (!plane.mask.empty()) value["mask"] = mask_json(plane.mask);
   if (plane.truth) value["truth"] = *plane.truth;
   return value;
+}
+
+// Coarse, in millimetres, row by row.
+json depth_json(const cv::Mat& depth) {
+  cv::Mat coarse = depth;
+  if (depth.cols > kRecordedDepth.width) {
+    cv::resize(depth, coarse, kRecordedDepth, 0, 0, cv::INTER_NEAREST);
+  }
+  json values = json::array();
+  for (int y = 0; y < coarse.rows; ++y) {
+    for (int x = 0; x < coarse.cols; ++x) {
+      values.push_back(static_cast<int>(std::lround(1000 * coarse.at<float>(y, x))));
+    }
+  }
+  return {{"size", {coarse.rows, coarse.cols}}, {"millimetres", values}};
 }
 
 // What is wrong with a line; parse_json_line adds where.
@@ -95,6 +112,22 @@ cv::Mat mask_of(const json& value) {
                      size);
 }
 
+cv::Mat depth_of(const json& value) {
+  const int rows = value.at("size").at(0).get<int>(), cols = value.at("size").at(1).get<int>();
+  const json& numbers = value.at("millimetres");
+  if (rows <= 0 || cols <= 0 || rows > kLargestSide || cols > kLargestSide ||
+      numbers.size() != std::size_t(rows) * std::size_t(cols)) {
+    refuse("a depth has not as many numbers as its size says");
+  }
+  cv::Mat depth(rows, cols, CV_32F);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double metres = finite(numbers[i]) / 1000;
+    if (metres < 0) refuse("a depth is negative");
+    depth.at<float>(int(i) / cols, int(i) % cols) = static_cast<float>(metres);
+  }
+  return depth;
+}
+
 DetectedObject parse_object(const json& value) {
   const auto b = four_numbers(value.at("box"), "a box");
   if (!(b[0] < b[2] && b[1] < b[3])) refuse("a box has no area");
@@ -126,7 +159,10 @@ std::string to_json_line(const DetectedFrame& frame) {
   json objects = json::array(), planes = json::array();
   for (const DetectedObject& object : frame.objects) objects.push_back(object_json(object));
   for (const DetectedPlane& plane : frame.planes) planes.push_back(plane_json(plane));
-  return json{{"timestamp", frame.timestamp}, {"objects", objects}, {"planes", planes}}.dump();
+  json line = {{"timestamp", frame.timestamp}, {"objects", objects}, {"planes", planes}};
+  if (frame.sigma_scale > 0) line["sigma_scale"] = sigma_json(frame.sigma_scale);
+  if (!frame.depth.empty()) line["depth"] = depth_json(frame.depth);
+  return line.dump();
 }
 
 DetectedFrame parse_json_line(const std::string& line, const std::string& where) {
@@ -136,6 +172,8 @@ DetectedFrame parse_json_line(const std::string& line, const std::string& where)
     frame.timestamp = finite(value.at("timestamp"));
     for (const json& object : value.at("objects")) frame.objects.push_back(parse_object(object));
     for (const json& plane : value.at("planes")) frame.planes.push_back(parse_plane(plane));
+    frame.sigma_scale = sigma_of(value, "sigma_scale", 0);
+    if (value.contains("depth")) frame.depth = depth_of(value.at("depth"));
     return frame;
   } catch (const json::exception& e) {
     throw Error(Error::Kind::kInput, where + ": is no recorded detections (" + e.what() +

@@ -77,12 +77,15 @@ cv::Mat logarithm(const cv::Mat& depth) {
 
 }  // namespace
 
+double log_scale_error(const PerceptionNoise::Depth& noise, const HashedNoise& source,
+                       double time) {
+  return noise.scale_spread * source.of({1}).correlated(time, noise.scale_seconds);
+}
+
 cv::Mat noisy_depth(const cv::Mat& depth, const PerceptionNoise::Depth& noise,
                     const HashedNoise& source, double time) {
   CV_Assert(depth.type() == CV_32F);
-  const double log_scale =
-      std::log(noise.scale) +
-      noise.scale_spread * source.of({1}).correlated(time, noise.scale_seconds);
+  const double log_scale = std::log(noise.scale) + log_scale_error(noise, source, time);
   cv::Mat result = logarithm(blurred(depth, noise.blur * depth.cols));
   if (noise.sharp < 1) {
     result = noise.sharp * result +

@@ -12,6 +12,9 @@ namespace cairn {
 cv::Mat noisy_depth(const cv::Mat& depth, const PerceptionNoise::Depth& noise,
                     const HashedNoise& source, double time);
 
+/// The logarithm of the scale that noisy_depth gives a picture, apart from the median of all.
+double log_scale_error(const PerceptionNoise::Depth& noise, const HashedNoise& source, double time);
+
 /// Normals (CV_32FC3, unit, camera frame; 0: nothing), turned by angles that are smooth over the
 /// picture.
 cv::Mat noisy_normals(const cv::Mat& normals, const PerceptionNoise::Normals& noise,

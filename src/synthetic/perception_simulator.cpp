@@ -11,6 +11,9 @@
 namespace cairn {
 namespace {
 
+const cv::Size kCoarseDepth(80, 60);
+constexpr double kLeastSigma = 1e-3;
+
 // First parts of keys: what a random number is for.
 enum Purpose : std::uint64_t {
   kThing,
@@ -95,6 +98,14 @@ DetectedFrame PerceptionSimulator::detect(const FrameTruth& truth, double timest
       frame.objects.begin(), frame.objects.end(),
       [](const DetectedObject& a, const DetectedObject& b) { return a.score > b.score; });
   for (const PlaneView& view : truth.visible_planes) detect_plane(picture, view, frame.planes);
+  // The scale of depth and planes is one, and, as with a calibrated network, right on average.
+  const HashedNoise dense = source_.of({kDense, 0});
+  const double scale = std::exp(log_scale_error(noise_.depth, dense, timestamp));
+  for (DetectedPlane& plane : frame.planes) plane.plane[3] *= scale;
+  cv::Mat coarse;
+  cv::resize(truth.depth, coarse, kCoarseDepth, 0, 0, cv::INTER_NEAREST);
+  frame.depth = noisy_depth(coarse, noise_.depth, dense, timestamp) / noise_.depth.scale;
+  frame.sigma_scale = noise_.depth.scale_spread;
   return frame;
 }
 
@@ -301,6 +312,8 @@ void PerceptionSimulator::detect_plane(const Picture& picture, const PlaneView& 
   plane.score = missed > 0 ? 0.5 + 0.5 * (luck - missed) / (1 - missed) : 1;
   const cv::Mat mask = mask_of(picture.truth.planes, view.plane);
   plane.plane = noisy_plane(view, mask, picture.time);
+  plane.sigma_angle = std::max(n.angle_deg * M_PI / 180, kLeastSigma);
+  plane.sigma_depth = std::max(n.offset, kLeastSigma);
   if (picture.masks) {
     plane.mask = ragged_mask(mask, noise_.masks, source_.of({kMask, 1, std::uint64_t(view.plane)}),
                              picture.time);

@@ -11,6 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 
+constexpr double kEnoughPlane = 0.02;  // of the picture
 constexpr int kEnoughPixels = 200;
 constexpr double kEnoughShare = 0.25;
 constexpr double kAngle = 1e-6;  // of normals that count as parallel or perpendicular
@@ -44,7 +45,7 @@ const char* name_of(Symmetry symmetry) {
   return "none";
 }
 
-Json planes_json(const Scene& scene) {
+Json planes_json(const Scene& scene, const VisibilityCount& visible) {
   Json list = Json::array();
   for (std::size_t i = 0; i < scene.planes.size(); ++i) {
     const WorldPlane& plane = scene.planes[i];
@@ -52,6 +53,7 @@ Json planes_json(const Scene& scene) {
                     {"label", plane.label},
                     {"normal", {plane.normal.x(), plane.normal.y(), plane.normal.z()}},
                     {"d", plane.d},
+                    {"visible_frames", visible.of_plane(int(i))},
                     {"outline", points_json(plane.outline)}});
   }
   return list;
@@ -97,6 +99,14 @@ void VisibilityCount::add(const FrameTruth& truth, double scale) {
   for (const ObjectView& view : truth.objects) {
     if (view.pixels * scale >= kEnoughPixels && view.visible >= kEnoughShare) ++frames_[view.thing];
   }
+  for (const PlaneView& view : truth.visible_planes) {
+    if (view.pixels >= kEnoughPlane * double(truth.depth.total())) ++plane_frames_[view.plane];
+  }
+}
+
+int VisibilityCount::of_plane(int plane) const {
+  const auto found = plane_frames_.find(plane);
+  return found == plane_frames_.end() ? 0 : found->second;
 }
 
 int VisibilityCount::of(int thing) const {
@@ -113,7 +123,7 @@ std::string world_json(const World& world, const VisibilityCount& visible) {
                      {"scene", scene.name},
                      {"seed", scene.seed},
                      {"labels", labels},
-                     {"planes", planes_json(scene)},
+                     {"planes", planes_json(scene, visible)},
                      {"objects", objects_json(scene, visible)},
                      {"parallel", pairs_json(scene, 1)},
                      {"perpendicular", pairs_json(scene, 0)}};

@@ -7,15 +7,18 @@
 
 namespace cairn {
 
-/// Counts, over the frames of a sequence, how often each object is seen well enough to be mapped.
+/// Counts, over the frames of a sequence, how often each object and plane is seen well enough to be
+/// mapped.
 class VisibilityCount {
  public:
   /// `scale`: how many pixels of the real picture one of the truth's stands for.
   void add(const FrameTruth& truth, double scale = 1);
   int of(int thing) const;
+  /// Frames of which a plane fills a fiftieth at least.
+  int of_plane(int plane) const;
 
  private:
-  std::map<int, int> frames_;
+  std::map<int, int> frames_, plane_frames_;
 };
 
 /// world.json: the schema is in docs/synthetic.md.

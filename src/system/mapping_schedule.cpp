@@ -33,6 +33,19 @@ void MappingSchedule::insert(KeyframeCandidate candidate, Sighting sighting) {
   wake_.notify_one();
 }
 
+void MappingSchedule::join(KeyframePerception perception) {
+  if (!threaded_) {
+    mapper_->join(perception);
+    publish();
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    perceptions_.push_back(std::move(perception));
+  }
+  wake_.notify_one();
+}
+
 void MappingSchedule::relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed) {
   Question question{std::move(frame), seed};
   if (!threaded_) {
@@ -107,12 +120,14 @@ void MappingSchedule::loop() {
   while (true) {
     std::optional<Insertion> insertion;
     std::optional<Question> question;
+    std::optional<KeyframePerception> perception;
     {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [&] {
-        return stopping_ || adjustment_due || question_.has_value() || !insertions_.empty();
+        return stopping_ || adjustment_due || question_.has_value() || !insertions_.empty() ||
+               !perceptions_.empty();
       });
-      if (stopping_ && insertions_.empty() && !adjustment_due) return;
+      if (stopping_ && insertions_.empty() && perceptions_.empty() && !adjustment_due) return;
       busy_ = true;
       abort_ = false;
       if (!insertions_.empty()) {
@@ -120,6 +135,9 @@ void MappingSchedule::loop() {
         insertions_.pop_front();
       } else if (question_ && !stopping_) {
         question = *question_;
+      } else if (!perceptions_.empty()) {
+        perception = std::move(perceptions_.front());
+        perceptions_.pop_front();
       }
     }
     if (insertion) {
@@ -127,6 +145,9 @@ void MappingSchedule::loop() {
       adjustment_due = true;
     } else if (question) {
       run_question(*question);
+    } else if (perception) {
+      mapper_->join(*perception);
+      publish();
     } else if (adjustment_due) {
       mapper_->adjust(&abort_);
       publish();

@@ -27,6 +27,8 @@ class MappingSchedule {
 
   /// A new keyframe, with what was seen since the last one.
   void insert(KeyframeCandidate candidate, Sighting sighting);
+  /// What perception says of a keyframe that was handed over before.
+  void join(KeyframePerception perception);
   /// Where is this lost frame? The answer comes by `take_relocalization`.
   void relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed);
   struct Answer {
@@ -64,6 +66,7 @@ class MappingSchedule {
   mutable std::mutex mutex_;  // guards what follows; held for moments only
   std::condition_variable wake_;
   std::deque<Insertion> insertions_;
+  std::deque<KeyframePerception> perceptions_;
   std::optional<Question> question_;
   std::optional<Answer> answer_;
   std::shared_ptr<const MapView> view_;

@@ -48,6 +48,9 @@ class OptionTable {
   void add(const char* key, Enum& value, std::vector<std::pair<std::string, Enum>> choices,
            const char* meaning);
 
+  void add_factor(const std::string& name, FactorOptions& factor, const char* unit, Range range,
+                  const char* meaning);
+
  private:
   /// A value that is one of a few words.
   struct Choice {

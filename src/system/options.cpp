@@ -9,6 +9,7 @@ namespace cairn {
 OptionTable::OptionTable(Options& o) {
   // clang-format off
   add("pace", o.pace, {{"realtime", Pace::kRealtime}, {"lockstep", Pace::kLockstep}}, "realtime: frames at their own rate; lockstep: repeatable to the byte");
+  add("landmarks", o.landmarks, {{"ppm", Landmarks::kPpm}, {"pp", Landmarks::kPp}, {"points", Landmarks::kPoints}}, "points; pp: points and planes; ppm: and parallel and perpendicular planes");
   add("threads", o.threads, "threads", {0, 1024}, "threads to work with; 0: all cores");
   add("seed", o.seed, "what all random choices are drawn from");
 
@@ -41,7 +42,35 @@ OptionTable::OptionTable(Options& o) {
   add("mapping.fixed", o.mapping.adjustment.fixed, "keyframes", {2, 500}, "around them that hold it, at most");
   add("mapping.local_iterations", o.mapping.adjustment.local_iterations, "steps", {1, 100}, "of a local adjustment, at most");
   add("mapping.full_iterations", o.mapping.adjustment.full_iterations, "steps", {1, 500}, "of the full adjustment, at most");
+
+  PlaneMappingOptions& planes = o.mapping.planes;
+  add("planes.th_high", planes.association.th_high, "keypoints", {1, 1000}, "shared by a detected plane and one of the map that make them one");
+  add("planes.th_low", planes.association.th_low, "keypoints", {0, 1000}, "shared with none: fewer make a detected plane a new one");
+  add("planes.max_angle_deg", planes.association.max_angle_deg, "degrees", {1, 60}, "between the normals of two planes that are one");
+  add("planes.max_offset", planes.association.max_offset, "", {0.005, 1}, "between two planes that are one, as a share of the viewing distance");
+  add("planes.min_sightings", planes.min_sightings, "pictures", {1, 100}, "that a plane of the final map must have");
+  add("planes.point_sigma", planes.point_sigma, "", {0.001, 0.2}, "distance of a point that lies on a plane, as a share of the viewing distance");
+  add("planes.min_points", planes.min_points, "points", {0, 1000}, "of the map that must lie on it");
+  add("planes.max_tilt_sigma_deg", planes.max_tilt_sigma_deg, "degrees", {0.5, 45}, "how sure its normal must be");
+  add("planes.probation", planes.probation, "keyframes", {1, 1000}, "after its last sighting within which all this must be reached");
+
+  PlaneFactorOptions& factors = o.mapping.adjustment.planes;
+  add_factor("plane_observation", factors.observation, "", {0.01, 100}, "what a picture says of a plane, times the detector's own sigma");
+  add_factor("point_on_plane", factors.point_on_plane, "", {0.0005, 0.5}, "a point's distance from its plane, as a share of the viewing distance");
+  add_factor("parallel", factors.parallel, "degrees", {0.05, 45}, "angle between two planes that are parallel");
+  add_factor("perpendicular", factors.perpendicular, "degrees", {0.05, 45}, "angle between two planes that are perpendicular, from 90");
   // clang-format on
+}
+
+// The three settings that each factor has.
+void OptionTable::add_factor(const std::string& name, FactorOptions& factor, const char* unit,
+                             Range range, const char* meaning) {
+  const std::string group = "factors." + name + ".";
+  add((group + "use").c_str(), factor.use, "switches the factor on");
+  add((group + "form").c_str(), factor.form,
+      {{"robust", FactorForm::kRobust}, {"paper", FactorForm::kPaper}},
+      "the residual as the paper has it, or in units of its own");
+  add((group + "sigma").c_str(), factor.sigma, unit, range, meaning);
 }
 
 }  // namespace cairn

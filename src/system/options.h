@@ -11,10 +11,14 @@ namespace cairn {
 
 enum class Pace { kLockstep, kRealtime };
 
+/// What the map is made of: points; and planes (pp); and Manhattan edges between planes (ppm).
+enum class Landmarks { kPoints, kPp, kPpm };
+
 /// Every setting of the system. Keys, units and ranges as users see them: option_table.h.
 struct Options {
   Pace pace = Pace::kRealtime;
-  int threads = 0;  ///< 0: all cores
+  Landmarks landmarks = Landmarks::kPpm;  ///< without a plane detector: points, whatever it says
+  int threads = 0;                        ///< 0: all cores
   std::uint64_t seed = 0;
   OrbOptions features = {.count = 0};  ///< count 0: by the size of the picture
   InitializerOptions initialization;

@@ -5,6 +5,52 @@
 
 namespace cairn {
 
+std::vector<MappedPlane> describe_planes(const Map& map, const PlaneMappingOptions& options) {
+  std::vector<MappedPlane> planes;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+    MappedPlane plane;
+    const Plane in_world = map.plane_in_world(id);
+    plane.id = static_cast<int>(id.slot);
+    plane.label = landmark.label();
+    plane.normal = in_world.normal();
+    plane.d = in_world.offset();
+    plane.outline = map.outline_in_world(id);
+    // The plane has moved since its corners were seen.
+    for (Eigen::Vector3d& corner : plane.outline) {
+      corner -= in_world.signed_distance(corner) * plane.normal;
+    }
+    plane.sigma_angle = tilt_sigma(map, id, options);
+    plane.points = static_cast<int>(landmark.points.size());
+    plane.sightings = static_cast<int>(landmark.sightings);
+    for (const PlaneObservation& o : landmark.observations) {
+      plane.seen.push_back(map.keyframes()[o.keyframe].timestamp());
+    }
+    std::sort(plane.seen.begin(), plane.seen.end());
+    for (const RelatedPlanes& r : map.relations()) {
+      if (r.a != id && r.b != id) continue;
+      const int other = static_cast<int>((r.a == id ? r.b : r.a).slot);
+      (r.relation == PlaneRelation::kParallel ? plane.parallel : plane.perpendicular)
+          .push_back(other);
+    }
+    planes.push_back(std::move(plane));
+  });
+  return planes;
+}
+
+void to_metres(SlamResult& result) {
+  const double scale = result.scale.value;
+  for (Trajectory* trajectory : {&result.trajectory, &result.trajectory_live, &result.keyframes}) {
+    for (StampedPose& pose : *trajectory) {
+      pose.T_wc = SE3(pose.T_wc.rotation(), scale * pose.T_wc.translation());
+    }
+  }
+  for (SlamResult::Point& point : result.points) point.position *= scale;
+  for (MappedPlane& plane : result.planes) {
+    plane.d *= scale;
+    for (Eigen::Vector3d& corner : plane.outline) corner *= scale;
+  }
+}
+
 ReprojectionError reprojection_error(const Map& map) {
   std::vector<double> errors;
   map.points().for_each([&](PointId, const MapPoint& point) {

@@ -6,10 +6,12 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 
 #include "cairn/system/frame_log.h"
 #include "cairn/system/mapping_schedule.h"
+#include "cairn/system/perception_worker.h"
 #include "cairn/system/result.h"
 
 namespace cairn {
@@ -27,6 +29,7 @@ Options resolved(Options options, const Camera& camera) {
     options.features.count =
         std::max(500, static_cast<int>(std::lround(1000.0 * camera.width() / 640)));
   }
+  options.mapping.planes.manhattan = options.landmarks == Landmarks::kPpm;
   return options;
 }
 
@@ -38,7 +41,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 struct Slam::Implementation {
-  Implementation(const Camera& camera, const Options& given)
+  Implementation(const Camera& camera, const Options& given, std::unique_ptr<PlaneDetector> planes)
       : camera(camera),
         options(resolved(given, camera)),
         view(camera, options.features.levels, options.features.scale, options.tracking.sigma_px),
@@ -49,6 +52,11 @@ struct Slam::Implementation {
     if (options.threads > 0) {
       threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
     }
+    if (planes && options.landmarks != Landmarks::kPoints) {
+      perception = std::make_unique<PerceptionWorker>(
+          std::move(planes), camera, view, options.pace == Pace::kRealtime,
+          [this](KeyframePerception seen) { deliver(std::move(seen)); });
+    }
   }
 
   std::shared_ptr<const Frame> make_frame(const cv::Mat& picture, double timestamp);
@@ -57,6 +65,8 @@ struct Slam::Implementation {
   void lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   bool recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   void hand_over_keyframe();
+  void perceive(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input);
+  void deliver(KeyframePerception seen);
   void restart();
   std::vector<FrameResult::Feature> seen_features(const Frame& frame, FrameState state) const;
 
@@ -69,7 +79,9 @@ struct Slam::Implementation {
   Initializer initializer;
   Tracker tracker;
   std::optional<tbb::global_control> threads;
+  std::mutex mapping_mutex;                  // the map may start again while a picture is looked at
   std::unique_ptr<MappingSchedule> mapping;  // once there is a map
+  std::unique_ptr<PerceptionWorker> perception;
   MappingSchedule::Sighting sighting;
   int frames_since_keyframe = 0;
   FrameLog log;
@@ -81,8 +93,8 @@ struct Slam::Implementation {
   std::vector<FrameRecord> records;
 };
 
-Slam::Slam(const Camera& camera, const Options& options)
-    : implementation_(std::make_unique<Implementation>(camera, options)) {}
+Slam::Slam(const Camera& camera, const Options& options, std::unique_ptr<PlaneDetector> planes)
+    : implementation_(std::make_unique<Implementation>(camera, options, std::move(planes))) {}
 Slam::~Slam() = default;
 
 const std::vector<FrameRecord>& Slam::frames() const { return implementation_->records; }
@@ -137,7 +149,7 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
   return frame;
 }
 
-FrameResult Slam::process(const cv::Mat& picture, double timestamp) {
+FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Mat& depth) {
   Implementation& s = *implementation_;
   const auto start = std::chrono::steady_clock::now();
   FrameResult result;
@@ -161,6 +173,11 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp) {
   } else {
     s.lose(frame, record);
   }
+  if (record.keyframe) {
+    const auto before = std::chrono::steady_clock::now();
+    s.perceive(frame, {picture, depth, timestamp});
+    mapping_ms += milliseconds_since(before);
+  }
   record.total_ms = milliseconds_since(start) - mapping_ms;
   result.features = s.seen_features(*frame, record.state);
   s.records.push_back(record);
@@ -177,7 +194,10 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
   auto mapper = std::make_unique<Mapper>(view, options.mapping);
   if (!mapper->initialize(*pair)) return;
   const std::shared_ptr<const MapView> map_view = mapper->view();
-  mapping = std::make_unique<MappingSchedule>(std::move(mapper), options);
+  {
+    const std::lock_guard lock(mapping_mutex);
+    mapping = std::make_unique<MappingSchedule>(std::move(mapper), options);
+  }
   map_started = frame->timestamp;
   std::vector<PointId> points(frame->size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -214,6 +234,17 @@ void Slam::Implementation::hand_over_keyframe() {
   frames_since_keyframe = 0;
 }
 
+void Slam::Implementation::perceive(const std::shared_ptr<const Frame>& frame,
+                                    const PerceptionInput& input) {
+  if (perception) perception->look(frame, input);
+}
+
+// In realtime from the worker's thread.
+void Slam::Implementation::deliver(KeyframePerception seen) {
+  const std::lock_guard lock(mapping_mutex);
+  if (mapping) mapping->join(std::move(seen));
+}
+
 void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
   record.state = FrameState::kLost;
   if (!lost) {
@@ -246,7 +277,10 @@ bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame, Fr
 
 void Slam::Implementation::restart() {
   spdlog::info("the map was lost within {:.0f} s of its start: starting again", kYoungMap);
-  mapping.reset();
+  {
+    const std::lock_guard lock(mapping_mutex);
+    mapping.reset();
+  }
   initializer.reset();
   log = {};
   sighting = {};
@@ -264,6 +298,7 @@ SlamResult Slam::finish() {
     result.refusal = s.initializer.refusal();
     return result;
   }
+  if (s.perception) s.perception->stop();
   Mapper& mapper = s.mapping->stop();
   const AdjustmentSummary summary = mapper.finish(nullptr);
   spdlog::info("full adjustment: {}", summary.to_string());
@@ -275,6 +310,9 @@ SlamResult Slam::finish() {
     const auto [r, g, b] = p.colour.rgb();
     result.points.push_back({p.position, {r, g, b}, static_cast<int>(p.observations.size())});
   });
+  result.planes = describe_planes(map, s.options.mapping.planes);
+  result.scale = mapper.scale();
+  if (result.scale.known()) to_metres(result);
   result.reprojection = reprojection_error(map);
   return result;
 }

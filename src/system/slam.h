@@ -13,6 +13,9 @@
 #include "cairn/geometry/trajectory.h"
 #include "cairn/map/frame_record.h"
 #include "cairn/map/map_view.h"
+#include "cairn/map/mapped_plane.h"
+#include "cairn/mapping/metric_scale.h"
+#include "cairn/perception/plane_detector.h"
 #include "cairn/system/options.h"
 
 namespace cairn {
@@ -34,7 +37,8 @@ struct ReprojectionError {
   std::size_t observations = 0;
 };
 
-/// The map and what led to it, for people: see the members.
+/// The map and what led to it, for people: see the members. Lengths are metres where the scale is
+/// known, units of the map otherwise.
 struct SlamResult {
   struct Point {
     Eigen::Vector3d position;                   ///< world frame = first keyframe
@@ -49,6 +53,8 @@ struct SlamResult {
   Trajectory trajectory_live;  ///< the same, as known at the moment of tracking
   Trajectory keyframes;
   std::vector<Point> points;
+  std::vector<MappedPlane> planes;
+  ScaleEstimate scale;
   ReprojectionError reprojection;
   std::vector<Gap> gaps;  ///< losses and recoveries
   int restarts = 0;       ///< maps given up within their first seconds
@@ -62,11 +68,14 @@ struct SlamResult {
 ///     SlamResult result = slam.finish();
 class Slam {
  public:
-  Slam(const Camera& camera, const Options& options);
+  /// With a detector, planes become part of the map, and the map gets metres.
+  Slam(const Camera& camera, const Options& options,
+       std::unique_ptr<PlaneDetector> planes = nullptr);
   ~Slam();
 
   /// `picture`: CV_8UC1 or CV_8UC3 (BGR), of the camera's size; timestamps in seconds, rising.
-  FrameResult process(const cv::Mat& picture, double timestamp);
+  /// `depth`: measured depth, CV_32F, metres, 0 where unknown; for detectors that use it.
+  FrameResult process(const cv::Mat& picture, double timestamp, const cv::Mat& depth = {});
   /// Realtime: a frame that came too late to be processed; it is counted.
   void drop(double timestamp);
   /// A frame that cannot be used (broken picture, wrong size, time going back); it is counted.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cairn {
+
+/// Metres a unit of the map.
+struct ScaleEstimate {
+  std::string how = "none";  ///< none (free), predicted depth, given, ...
+  double value = 1;
+  double sigma = 0;  ///< relative; 0 where nothing is known of it
+  int pictures = 0;  ///< that had a say
+
+  bool known() const { return how != "none"; }
+};
+
+/// Collects what pictures say about the unit of the map.
+class MetricScale {
+ public:
+  /// A picture's alignment: map units a metre of the detector, and how far off the detector's metre
+  /// may be in a scene, of the logarithm; 0 where it is measured.
+  void add(double picture_scale, double sigma);
+  /// Of all pictures the median; 0 where there is none yet.
+  double picture_scale() const;
+  /// Metres, from the median over all pictures. Its σ: that of the detector in a scene, which no
+  /// number of pictures makes smaller, and the spread of the pictures over the root of their
+  /// number.
+  ScaleEstimate estimate() const;
+
+ private:
+  double sigma_ = 0;          // the largest of all pictures
+  std::vector<double> logs_;  // of metres a unit, as the detector has it
+};
+
+}  // namespace cairn

@@ -1,0 +1,256 @@
+#include "cairn/mapping/plane_mapping.h"
+
+#include <spdlog/spdlog.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cairn {
+namespace {
+
+constexpr double kGate = 3;              // σ
+constexpr double kMinTiltSigma = 0.017;  // a degree: walls are no better
+// Planes farther from parallel or perpendicular are something else, however little is known of
+// them.
+constexpr double kMaxRelationAngle = 8 * 3.14159265358979 / 180;
+constexpr double kRadians = std::numbers::pi / 180;
+
+SeenPlane scaled(SeenPlane seen, double scale) {
+  seen.plane = seen.plane.scaled(scale);
+  seen.centroid *= scale;
+  seen.sigma_offset *= scale;
+  for (Eigen::Vector3d& corner : seen.outline) corner *= scale;
+  return seen;
+}
+
+// Points of the map in the mask of a plane, in the keyframe's frame.
+std::vector<Eigen::Vector3d> points_in(const Map& map, const Keyframe& keyframe,
+                                       const SeenPlane& seen) {
+  const SE3 T_kw = keyframe.T_wc.inverse();
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint32_t i : seen.keypoints) {
+    if (!keyframe.points[i].valid()) continue;
+    points.push_back(T_kw * map.points()[keyframe.points[i]].position);
+  }
+  return points;
+}
+
+// Points in the mask that lie on the plane become its; its own that have moved off it leave.
+void gather_points(Map& map, const Keyframe& keyframe, const SeenPlane& seen, PlaneId id,
+                   double point_sigma) {
+  const Plane plane = map.plane_in_world(id);
+  const auto lies_on = [&](PointId p) {
+    const Eigen::Vector3d& x = map.points()[p].position;
+    const double distance = (x - keyframe.T_wc.translation()).norm();
+    return std::abs(plane.signed_distance(x)) < kGate * point_sigma * distance;
+  };
+  for (const std::uint32_t i : seen.keypoints) {
+    const PointId p = keyframe.points[i];
+    if (p.valid() && !map.points()[p].plane.valid() && lies_on(p)) map.set_plane_of(p, id);
+  }
+  for (const std::uint32_t i : seen.keypoints) {
+    const PointId p = keyframe.points[i];
+    if (p.valid() && map.points()[p].plane == id && !lies_on(p)) map.set_plane_of(p, {});
+  }
+}
+
+// From where a landmark is seen to its middle.
+double viewing_distance(const Map& map, PlaneId id) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : landmark.outline) middle += corner;
+  return landmark.outline.empty() ? 0 : (middle / double(landmark.outline.size())).norm();
+}
+
+void fuse_planes(Map& map, const PlaneAssociationOptions& options) {
+  std::vector<PlaneId> ids;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark&) { ids.push_back(id); });
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t k = i + 1; k < ids.size(); ++k) {
+      if (!map.planes().contains(ids[i]) || !map.planes().contains(ids[k])) continue;
+      const double distance =
+          std::min(viewing_distance(map, ids[i]), viewing_distance(map, ids[k]));
+      if (!one_surface(map, ids[i], ids[k], distance, options)) continue;
+      // The better known one stays.
+      const bool first = map.planes()[ids[i]].sightings >= map.planes()[ids[k]].sightings;
+      spdlog::debug("planes: {} ({}) and {} ({}) are one surface", int(ids[i].slot),
+                    map.planes()[ids[i]].label(), int(ids[k].slot), map.planes()[ids[k]].label());
+      map.merge_planes(first ? ids[k] : ids[i], first ? ids[i] : ids[k]);
+    }
+  }
+}
+
+bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  return static_cast<int>(landmark.sightings) >= options.min_sightings &&
+         static_cast<int>(landmark.points.size()) >= options.min_points &&
+         tilt_sigma(map, id, options) <= options.max_tilt_sigma_deg * kRadians;
+}
+
+void cull_planes(Map& map, std::uint32_t now, const PlaneMappingOptions& options) {
+  std::vector<PlaneId> gone;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+    const bool late = now > landmark.last_seen + std::uint32_t(options.probation);
+    if (late && !confirmed(map, id, options)) gone.push_back(id);
+  });
+  for (const PlaneId id : gone) map.erase_plane(id);
+}
+
+// A relation begins where the angle is within two σ of it, and ends beyond three.
+void relate_planes(Map& map, const PlaneMappingOptions& options) {
+  struct Sure {
+    PlaneId id;
+    Eigen::Vector3d normal;
+    double sigma;
+  };
+  std::vector<Sure> planes;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark&) {
+    if (!confirmed(map, id, options)) return;
+    planes.push_back({id, map.plane_in_world(id).normal(), tilt_sigma(map, id, options)});
+  });
+  const std::vector<RelatedPlanes> before = std::move(map.relations());
+  map.relations().clear();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t k = i + 1; k < planes.size(); ++k) {
+      const double cosine = std::min(std::abs(planes[i].normal.dot(planes[k].normal)), 1.0);
+      const double sigma = std::hypot(planes[i].sigma, planes[k].sigma);
+      for (const auto relation : {PlaneRelation::kParallel, PlaneRelation::kPerpendicular}) {
+        const double off =
+            relation == PlaneRelation::kParallel ? std::acos(cosine) : std::asin(cosine);
+        const bool held = std::any_of(before.begin(), before.end(), [&](const RelatedPlanes& r) {
+          return r.a == planes[i].id && r.b == planes[k].id && r.relation == relation;
+        });
+        if (off < std::min((held ? 3 : 2) * sigma, kMaxRelationAngle)) {
+          map.relations().push_back({planes[i].id, planes[k].id, relation});
+          break;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, double sigma) {
+  // Unknowns: turns of the normal about two axes of the plane, and a shift along it, at the
+  // predicted centroid.
+  const Eigen::Vector3d n0 = seen.plane.normal(), c = seen.centroid;
+  const Eigen::Vector3d u = n0.unitOrthogonal(), v = n0.cross(u);
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // n = n0 + x0 u + x1 v, shift x2
+  const Eigen::Vector3d prior(1 / seen.sigma_angle, 1 / seen.sigma_angle, 1 / seen.sigma_offset);
+  const auto row = [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(u.dot(p - c), v.dot(p - c), -1);
+  };
+  // From a loss as wide as the prediction is unsure down to that of the points: so points of other
+  // things, that are nearer to the prediction, do not catch it.
+  double width = std::max(seen.sigma_offset, sigma);
+  while (true) {
+    for (int iteration = 0; iteration < 3; ++iteration) {
+      Eigen::Matrix3d H = prior.cwiseAbs2().asDiagonal();
+      Eigen::Vector3d g = Eigen::Vector3d::Zero();
+      for (const Eigen::Vector3d& p : points) {
+        const Eigen::Vector3d J = row(p);
+        const double distance = n0.dot(p - c) + J.dot(x);
+        const double weight = 1 / (1 + std::pow(distance / width, 2)) / (sigma * sigma);  // Cauchy
+        H += weight * J * J.transpose();
+        g += weight * n0.dot(p - c) * J;
+      }
+      x = H.ldlt().solve(-g);
+    }
+    if (width <= sigma) break;
+    width = std::max(width / 2, sigma);
+  }
+  if (!x.allFinite()) return 0;
+  const Eigen::Vector3d n = (n0 + x[0] * u + x[1] * v).normalized();
+  const Eigen::Vector3d on_it = c + x[2] * n0;
+  const Plane refined = Plane::through(on_it, n);
+  const auto count = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
+    return std::abs(refined.signed_distance(p)) < kGate * sigma;
+  });
+  seen.plane = refined;
+  seen.centroid = c - refined.signed_distance(c) * n;
+  for (Eigen::Vector3d& corner : seen.outline) corner -= refined.signed_distance(corner) * n;
+  return static_cast<int>(count);
+}
+
+double tilt_sigma(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  // What a tilt about an axis in the plane would cost: the points far from the axis tell.
+  const Eigen::Vector3d n = map.plane_in_world(id).normal();
+  const Eigen::Vector3d u = n.unitOrthogonal(), v = n.cross(u);
+  const Eigen::Vector3d eye = map.keyframes()[landmark.reference].T_wc.translation();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  double distances = 0;
+  for (const PointId p : landmark.points) {
+    const Eigen::Vector3d& x = map.points()[p].position;
+    mean += Eigen::Vector2d(u.dot(x), v.dot(x));
+    distances += (x - eye).norm();
+  }
+  if (!landmark.points.empty()) {
+    const auto count = double(landmark.points.size());
+    mean /= count;
+    const double sigma = options.point_sigma * distances / count;
+    for (const PointId p : landmark.points) {
+      const Eigen::Vector3d& x = map.points()[p].position;
+      const Eigen::Vector2d off = Eigen::Vector2d(u.dot(x), v.dot(x)) - mean;
+      information += off * off.transpose() / (sigma * sigma);
+    }
+  }
+  // Pictures of one network err alike: together they count as one.
+  double best = 0;
+  for (const PlaneObservation& o : landmark.observations) {
+    best = std::max(best, 1 / (o.sigma_angle * o.sigma_angle));
+  }
+  information.diagonal().array() += best;
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information, Eigen::EigenvaluesOnly)
+          .eigenvalues()[0];
+  return least > 0 ? std::hypot(kMinTiltSigma, 1 / std::sqrt(least)) : std::numbers::pi;
+}
+
+void map_planes(Map& map, KeyframeId id, const KeyframePerception& seen, double scale,
+                double log_error, const PlaneMappingOptions& options) {
+  const Keyframe& keyframe = map.keyframes()[id];
+  std::vector<SeenPlane> planes, raw;
+  for (const SeenPlane& plane : seen.planes) {
+    raw.push_back(scaled(plane, scale));
+    raw.back().sigma_offset =
+        std::max(raw.back().sigma_offset, log_error * raw.back().centroid.norm());
+    planes.push_back(raw.back());
+    refine_plane(planes.back(), points_in(map, keyframe, planes.back()),
+                 options.point_sigma * planes.back().centroid.norm());
+  }
+  const std::vector<PlaneDecision> decisions =
+      associate_planes(map, id, planes, options.association);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    PlaneId plane = decisions[i].plane;
+    if (decisions[i].kind == PlaneDecision::Kind::kUnclear) continue;
+    if (decisions[i].kind == PlaneDecision::Kind::kNew) {
+      plane = map.add_plane(id, planes[i]);
+      // The factor is of what the network said; the points have factors of their own.
+      PlaneObservation& first = map.planes()[plane].observations.front();
+      first.normal = raw[i].plane.facing_origin().normal();
+      first.centroid = raw[i].centroid;
+    } else {
+      map.observe_plane(plane, id, raw[i]);
+    }
+    gather_points(map, keyframe, planes[i], plane, options.point_sigma);
+  }
+  fuse_planes(map, options.association);
+  cull_planes(map, keyframe.sequence, options);
+  if (options.manhattan) relate_planes(map, options);
+}
+
+void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
+  std::vector<PlaneId> gone;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark&) {
+    if (!confirmed(map, id, options)) gone.push_back(id);
+  });
+  for (const PlaneId id : gone) map.erase_plane(id);
+}
+
+}  // namespace cairn

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "cairn/association/plane_association.h"
+#include "cairn/map/map.h"
+#include "cairn/mapping/keyframe_perception.h"
+
+namespace cairn {
+
+struct PlaneMappingOptions {
+  bool manhattan = false;         ///< parallel and perpendicular planes are found and bound
+  double point_sigma = 0.01;      ///< of a point off its plane, as a share of its viewing distance
+  int min_sightings = 3;          ///< pictures that a plane of the map must have
+  int min_points = 10;            ///< of the map that must lie on it
+  double max_tilt_sigma_deg = 5;  ///< how sure its normal must be
+  int probation = 8;  ///< keyframes after its last sighting within which all this must be
+  PlaneAssociationOptions association;
+};
+
+/// Takes the planes of a keyframe's picture into the map: decides which they are, lets the map's
+/// points say where they lie, gathers the points on them, fuses and removes landmarks, and finds
+/// which are parallel or perpendicular. `scale`: map units a metre of the detector;
+/// `log_error`: local errors of the detector's depth in this picture, relative.
+void map_planes(Map& map, KeyframeId keyframe, const KeyframePerception& seen, double scale,
+                double log_error, const PlaneMappingOptions& options);
+
+/// At the end: planes that were never confirmed go. Confirmed is what enough pictures show and
+/// enough points carry: what networks alone say of a surface is too rough for a map.
+void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options);
+
+/// Lets points decide where a plane lies, as far as there are any: a robust fit in which the
+/// prediction (normal, offset at the centroid, with their σ) counts as much as it is sure. `points`
+/// in the plane's frame; `sigma`: of their distances from a plane. Returns how many lie on it.
+int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, double sigma);
+
+/// How sure the normal of a landmark is, radians: from where its points lie and from what pictures
+/// said.
+double tilt_sigma(const Map& map, PlaneId id, const PlaneMappingOptions& options);
+
+}  // namespace cairn

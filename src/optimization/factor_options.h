@@ -1,0 +1,21 @@
+#pragma once
+
+#include "cairn/optimization/factors/factor_form.h"
+
+namespace cairn {
+
+/// Switch, form and σ of a factor; docs/factors has a page for each.
+struct FactorOptions {
+  bool use = true;
+  FactorForm form = FactorForm::kRobust;
+  double sigma = 1;  ///< in the factor's own unit
+};
+
+struct PlaneFactorOptions {
+  FactorOptions observation = {.sigma = 1};        ///< times the σ that detector and picture give
+  FactorOptions point_on_plane = {.sigma = 0.05};  ///< as a share of the viewing distance
+  FactorOptions parallel = {.sigma = 1};           ///< degrees
+  FactorOptions perpendicular = {.sigma = 1};      ///< degrees
+};
+
+}  // namespace cairn

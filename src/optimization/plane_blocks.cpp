@@ -1,0 +1,174 @@
+#include "cairn/optimization/plane_blocks.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/ordered_groups.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "cairn/optimization/factors/parallel_planes_factor.h"
+#include "cairn/optimization/factors/perpendicular_planes_factor.h"
+#include "cairn/optimization/factors/plane_observation_factor.h"
+#include "cairn/optimization/factors/point_on_plane_factor.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kMinPoints = 3;        // of a plane in the adjustment, that it takes part
+constexpr std::size_t kMaxHeldPoints = 200;  // outside of the adjustment, that hold a plane
+// Groups of blocks, in the order of elimination; points are group 0, poses 1.
+constexpr int kPlaneGroup = 2, kHeldPoseGroup = 3, kHeldPointGroup = 4;
+constexpr double kRadians = std::numbers::pi / 180;
+
+}  // namespace
+
+void PlaneBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
+                         const PoseBlock& pose_of, const PointBlock& point_of) {
+  problem_ = &problem;
+  ordering_ = &ordering;
+  pose_of_ = pose_of;
+  point_of_ = point_of;
+  losses_.push_back(std::make_unique<ceres::HuberLoss>(2.0));
+  losses_.push_back(std::make_unique<ceres::CauchyLoss>(1.0));
+  planes_.reserve(map_.planes().size());
+  held_poses_.reserve(map_.keyframes().size());
+  held_points_.reserve(kMaxHeldPoints * map_.planes().size());
+  map_.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+    if (!takes_part(landmark, pose_of, point_of)) return;
+    Entry& entry = planes_.emplace_back();
+    entry.id = id;
+    Eigen::Map<Eigen::Vector4d>(entry.values.data()) = landmark.plane.coefficients();
+    problem.AddParameterBlock(entry.values.data(), 4, &plane_manifold_);
+    ordering.AddElementToGroup(entry.values.data(), kPlaneGroup);
+  });
+  for (Entry& entry : planes_) {
+    if (options_.observation.use) add_observations(entry);
+    if (options_.point_on_plane.use) add_points(entry);
+  }
+  add_relations();
+}
+
+bool PlaneBlocks::takes_part(const PlaneLandmark& landmark, const PoseBlock& pose_of,
+                             const PointBlock& point_of) const {
+  const auto seen =
+      std::any_of(landmark.observations.begin(), landmark.observations.end(),
+                  [&](const PlaneObservation& o) { return pose_of(o.keyframe) != nullptr; });
+  if (seen && options_.observation.use) return true;
+  std::size_t points = 0;
+  for (const PointId p : landmark.points) points += point_of(p) != nullptr;
+  return points >= kMinPoints && options_.point_on_plane.use;
+}
+
+void PlaneBlocks::add_observations(Entry& entry) {
+  const PlaneLandmark& landmark = map_.planes()[entry.id];
+  const FactorForm form = options_.observation.form;
+  for (const PlaneObservation& o : landmark.observations) {
+    const double s = options_.observation.sigma;
+    const PlaneMeasurement measurement =
+        PlaneMeasurement::isotropic(o.normal, o.centroid, s * o.sigma_angle, s * o.sigma_offset);
+    if (o.keyframe == landmark.reference) {
+      add(std::make_unique<ReferencePlaneObservationFactor>(form, measurement), losses_[0].get(),
+          {entry.values.data()});
+    } else {
+      add(std::make_unique<PlaneObservationFactor>(form, measurement), losses_[0].get(),
+          {pose(landmark.reference), pose(o.keyframe), entry.values.data()});
+    }
+  }
+}
+
+void PlaneBlocks::add_points(Entry& entry) {
+  const PlaneLandmark& landmark = map_.planes()[entry.id];
+  double* reference = pose(landmark.reference);
+  std::vector<PointId> outside;
+  const auto add_point = [&](PointId id, double* position) {
+    const MapPoint& p = map_.points()[id];
+    const Keyframe& eye = map_.keyframes()[p.observations.front().keyframe];
+    const double sigma =
+        options_.point_on_plane.sigma * (p.position - eye.T_wc.translation()).norm();
+    add(std::make_unique<PointOnPlaneFactor>(sigma), losses_[1].get(),
+        {reference, entry.values.data(), position});
+  };
+  for (const PointId id : landmark.points) {
+    if (double* position = point_of_(id)) {
+      add_point(id, position);
+    } else {
+      outside.push_back(id);
+    }
+  }
+  const std::size_t n = std::min(outside.size(), kMaxHeldPoints);
+  for (std::size_t i = 0; i < n; ++i) {
+    const PointId id = outside[i * outside.size() / n];
+    add_point(id, point(id));
+  }
+}
+
+void PlaneBlocks::add_relations() {
+  for (const RelatedPlanes& r : map_.relations()) {
+    const FactorOptions& options =
+        r.relation == PlaneRelation::kParallel ? options_.parallel : options_.perpendicular;
+    Entry* a = find(r.a);
+    Entry* b = find(r.b);
+    if (!options.use || a == nullptr || b == nullptr) continue;
+    const double sigma = options.sigma * kRadians;
+    const KeyframeId ra = map_.planes()[r.a].reference, rb = map_.planes()[r.b].reference;
+    const PlaneFrames frames = ra == rb ? PlaneFrames::kOne : PlaneFrames::kTwo;
+    std::vector<double*> blocks = {a->values.data(), b->values.data()};
+    if (ra != rb) blocks = {pose(ra), a->values.data(), pose(rb), b->values.data()};
+    if (r.relation == PlaneRelation::kParallel) {
+      add(std::make_unique<ParallelPlanesFactor>(options.form, frames, sigma), losses_[0].get(),
+          blocks);
+    } else {
+      add(std::make_unique<PerpendicularPlanesFactor>(frames, sigma), losses_[0].get(), blocks);
+    }
+  }
+}
+
+double* PlaneBlocks::pose(KeyframeId id) {
+  if (double* block = pose_of_(id)) return block;
+  for (const auto& [held, block] : held_pose_of_) {
+    if (held == id) return block;
+  }
+  double* block = held_poses_.emplace_back().data();
+  SE3Manifold::pack(map_.keyframes()[id].T_wc, block);
+  held_pose_of_.emplace_back(id, block);
+  problem_->AddParameterBlock(block, 7, &pose_manifold_);
+  problem_->SetParameterBlockConstant(block);
+  ordering_->AddElementToGroup(block, kHeldPoseGroup);
+  return block;
+}
+
+double* PlaneBlocks::point(PointId id) {
+  double* block = held_points_.emplace_back(map_.points()[id].position).data();
+  problem_->AddParameterBlock(block, 3);
+  problem_->SetParameterBlockConstant(block);
+  ordering_->AddElementToGroup(block, kHeldPointGroup);
+  return block;
+}
+
+PlaneBlocks::Entry* PlaneBlocks::find(PlaneId id) {
+  for (Entry& entry : planes_) {
+    if (entry.id == id) return &entry;
+  }
+  return nullptr;
+}
+
+void PlaneBlocks::add(std::unique_ptr<ceres::CostFunction> factor, ceres::LossFunction* loss,
+                      const std::vector<double*>& blocks) {
+  problem_->AddResidualBlock(factor.get(), loss, blocks);
+  factors_.push_back(std::move(factor));
+}
+
+void PlaneBlocks::scale(double factor) {
+  for (Entry& entry : planes_) {
+    const Plane scaled = Plane(Eigen::Vector4d::Map(entry.values.data())).scaled(factor);
+    Eigen::Vector4d::Map(entry.values.data()) = scaled.coefficients();
+  }
+}
+
+void PlaneBlocks::write_back(Map& map) const {
+  for (const Entry& entry : planes_) {
+    map.planes()[entry.id].plane = Plane(Eigen::Vector4d::Map(entry.values.data()));
+  }
+}
+
+}  // namespace cairn

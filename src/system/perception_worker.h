@@ -1,0 +1,49 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "cairn/mapping/keyframe_perception.h"
+#include "cairn/perception/plane_detector.h"
+
+namespace cairn {
+
+/// Looks at the pictures of keyframes: at once, within the call (lockstep), or on a thread of its
+/// own (realtime), where a picture that comes while another still waits takes its place: no one
+/// ever waits, and the newest is looked at.
+class PerceptionWorker {
+ public:
+  /// `deliver` is called with each result, in realtime from the worker's thread.
+  PerceptionWorker(std::unique_ptr<PlaneDetector> detector, const Camera& camera, const View& view,
+                   bool threaded, std::function<void(KeyframePerception)> deliver);
+  ~PerceptionWorker();
+
+  void look(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
+  /// Waits for what is being looked at; nothing is delivered afterwards.
+  void stop();
+
+ private:
+  struct Task {
+    std::shared_ptr<const Frame> frame;
+    PerceptionInput input;
+  };
+  void loop();
+  void run(const Task& task);
+
+  std::unique_ptr<PlaneDetector> detector_;
+  Camera camera_;
+  View view_;
+  std::function<void(KeyframePerception)> deliver_;
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable wake_;
+  std::optional<Task> waiting_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,78 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+
+namespace cairn {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string content(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// A desk with what networks would say of it.
+class PlanesRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Ran ran = run_cairn("synth " + sequence() +
+                              " --scene desk --frames 90 --samples 1 --no-blur --no-progress");
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  }
+  Ran run(const std::string& out, const std::string& arguments) {
+    return run_cairn("run " + sequence() + " --pace lockstep --no-progress --out " +
+                     (folder_ / out) + " " + arguments);
+  }
+  nlohmann::json json(const std::string& file) {
+    return nlohmann::json::parse(content(folder_ / file));
+  }
+  std::string sequence() const { return folder_ / "desk"; }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PlanesRun, PutsTheTableIntoTheMapAndTheMapIntoMetres) {
+  const Ran ran = run("a", "--landmarks ppm --planes recorded --threads 1");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_THAT(ran.output, HasSubstr("planes"));
+  const nlohmann::json planes = json("a/planes.json").at("planes");
+  ASSERT_FALSE(planes.empty());
+  for (const nlohmann::json& plane : planes) {
+    EXPECT_GE(plane.at("outline").size(), 3U);
+    EXPECT_GE(plane.at("points").get<int>(), 10);
+  }
+  const nlohmann::json scale = json("a/summary.json").at("scale");
+  EXPECT_EQ(scale.at("how"), "predicted depth");
+  EXPECT_GT(scale.at("sigma").get<double>(), 0.01);
+  // Three seconds have one or two independent pictures: twice the sigma of their scale.
+  const Ran evaluated =
+      run_cairn("evaluate " + (folder_ / "a") + " --json --world " + sequence() + "/world.json");
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.output;
+  const nlohmann::json report = nlohmann::json::parse(evaluated.output);
+  EXPECT_NEAR(report.at("scale").get<double>(), 1, 0.35);
+  EXPECT_LT(report.at("ate").at("rmse").get<double>(), 0.01);
+  EXPECT_GE(report.at("planes").at("correct").get<int>(), 1);
+
+  ASSERT_EQ(run("b", "--landmarks ppm --planes recorded --threads 2").exit_code, 0);
+  for (const char* file : {"trajectory.txt", "planes.json", "map.ply"}) {
+    EXPECT_EQ(content((folder_ / "a/") + file), content((folder_ / "b/") + file)) << file;
+  }
+}
+
+TEST_F(PlanesRun, SaysWhatIsMissing) {
+  std::filesystem::remove(sequence() + "/perception.jsonl");
+  EXPECT_THAT(run("a", "--landmarks pp --planes recorded").output, HasSubstr("perception.jsonl"));
+  EXPECT_EQ(run("b", "--landmarks pp --planes network --models /no/such/folder").exit_code, 3);
+  EXPECT_EQ(run("c", "--landmarks points --planes recorded").exit_code, 2);
+  EXPECT_EQ(run("d", "--landmarks pp --planes none").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace cairn

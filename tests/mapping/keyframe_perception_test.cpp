@@ -1,0 +1,169 @@
+#include "cairn/mapping/keyframe_perception.h"
+
+#include <gmock/gmock.h>
+
+#include "geometry/planes.h"
+#include "map/flat_map.h"
+
+namespace cairn {
+namespace {
+
+using ::testing::IsEmpty;
+using testing::IsNearPlane;
+using testing::kCamera;
+using testing::point_view;
+using testing::Random;
+using ::testing::SizeIs;
+
+const Camera kLens(Camera::Model::kRadialTangential, 640, 480, kCamera);
+const cv::Rect kInside(200, 100, 201, 161);
+const Plane kTilted(Eigen::Vector3d(0.3, -0.4, 0.85).normalized(), -3);
+
+// Keypoints every 20 pixels.
+std::vector<Eigen::Vector2d> pixels() {
+  std::vector<Eigen::Vector2d> result;
+  for (int y = 10; y < 480; y += 20) {
+    for (int x = 10; x < 640; x += 20) result.emplace_back(x, y);
+  }
+  return result;
+}
+
+bool inside(const Eigen::Vector2d& pixel) {
+  return kInside.contains(cv::Point(int(pixel.x()), int(pixel.y())));
+}
+
+DetectedPlane detected() {
+  DetectedPlane plane;
+  plane.plane << kTilted.normal(), kTilted.offset();
+  plane.label = "table";
+  plane.score = 0.75;
+  plane.mask = cv::Mat::zeros(480, 640, CV_8U);
+  plane.mask(kInside).setTo(255);
+  plane.sigma_angle = 0.07;
+  plane.sigma_depth = 0.04;
+  return plane;
+}
+
+KeyframePerception summary_of(const DetectedFrame& frame) {
+  return summarize_perception(frame, testing::frame_at(pixels(), 1), kLens, point_view());
+}
+
+TEST(KeyframePerception, OfAPlaneIsWhatItsMaskShows) {
+  DetectedFrame frame;
+  frame.planes = {detected()};
+  frame.sigma_scale = 0.1;
+  const KeyframePerception summary = summary_of(frame);
+  ASSERT_THAT(summary.planes, SizeIs(1));
+  EXPECT_EQ(summary.sigma_scale, 0.1);
+  const SeenPlane& seen = summary.planes[0];
+  EXPECT_THAT(seen.plane, IsNearPlane(kTilted, 1e-6, 1e-9));
+  EXPECT_EQ(seen.label, "table");
+  EXPECT_EQ(seen.score, 0.75);
+  std::vector<std::uint32_t> expected;
+  for (std::uint32_t i = 0; i < pixels().size(); ++i) {
+    if (inside(pixels()[i])) expected.push_back(i);
+  }
+  ASSERT_THAT(expected, SizeIs(10 * 8));
+  EXPECT_EQ(seen.keypoints, expected);
+  EXPECT_NEAR(kTilted.signed_distance(seen.centroid), 0, 1e-9);
+  EXPECT_LT((kCamera.project(seen.centroid) - Eigen::Vector2d(300, 180)).norm(), 1);
+  ASSERT_THAT(seen.outline, SizeIs(4));
+  for (const Eigen::Vector3d& corner : seen.outline) {
+    EXPECT_NEAR(kTilted.signed_distance(corner), 0, 1e-9);
+    const Eigen::Vector2d off = kCamera.project(corner) - Eigen::Vector2d(300, 180);
+    EXPECT_NEAR(std::abs(off.x()), 100, 2);
+    EXPECT_NEAR(std::abs(off.y()), 80, 2);
+  }
+  EXPECT_EQ(seen.sigma_angle, 0.07);
+  EXPECT_NEAR(seen.sigma_offset, 0.04 * seen.centroid.norm(), 1e-12);
+}
+
+TEST(KeyframePerception, HasTheDepthOfThePlanesWhereTheDetectorGivesNone) {
+  DetectedFrame frame;
+  frame.planes = {detected()};
+  const KeyframePerception summary = summary_of(frame);
+  ASSERT_THAT(summary.depth, SizeIs(pixels().size()));
+  for (std::size_t i = 0; i < pixels().size(); ++i) {
+    const double depth = kTilted.depth_along(kCamera.unproject(pixels()[i])).value_or(0);
+    EXPECT_NEAR(summary.depth[i], inside(pixels()[i]) ? depth : 0, 1e-5) << i;
+  }
+}
+
+TEST(KeyframePerception, HasTheDepthOfTheDetectorWhereItGivesOne) {
+  DetectedFrame frame;
+  frame.planes = {detected()};
+  frame.depth = cv::Mat(240, 320, CV_32F, cv::Scalar(0));  // of half the size
+  frame.depth(cv::Rect(160, 0, 160, 240)).setTo(cv::Scalar(2.5));
+  const KeyframePerception summary = summary_of(frame);
+  for (std::size_t i = 0; i < pixels().size(); ++i) {
+    EXPECT_EQ(summary.depth[i], pixels()[i].x() < 320 ? 0.0f : 2.5f) << i;
+  }
+}
+
+TEST(KeyframePerception, LeavesOutPlanesThatCannotBe) {
+  DetectedFrame frame;
+  frame.planes.assign(7, detected());
+  frame.planes[0].plane[1] = NAN;
+  frame.planes[1].plane.setZero();
+  frame.planes[2].plane[3] = 3;  // behind the camera
+  frame.planes[3].mask = cv::Mat();
+  frame.planes[4].mask.setTo(0);  // shared with all others by cv::Mat
+  for (const int i : {0, 1, 2, 5, 6}) frame.planes[i].mask = detected().mask;
+  frame.planes[5].plane << 0, 0.8, 0.6, INFINITY;
+  EXPECT_THAT(summary_of(frame).planes, SizeIs(1));
+  frame.planes.pop_back();
+  const KeyframePerception summary = summary_of(frame);
+  EXPECT_THAT(summary.planes, IsEmpty());
+  for (const float depth : summary.depth) EXPECT_EQ(depth, 0);
+}
+
+// Points between 2 and 6 units away, and their depth as a detector predicts it: 2.5 units are a
+// metre, 2 % noise, and a share far too near.
+struct Pictured {
+  Map map;
+  KeyframePerception seen;
+};
+
+Pictured picture(int count, double outliers) {
+  Random random(8);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < count; ++i) {
+    const double u = random.uniform(0, 640), v = random.uniform(0, 480), z = random.uniform(2, 6);
+    points.push_back(z * kCamera.unproject({u, v}));
+  }
+  const std::vector<SE3> poses = testing::few_poses(2);
+  Pictured result{testing::map_of(points, poses), {}};
+  for (int i = 0; i < count; ++i) {
+    const double depth = (poses[1].inverse() * points[i]).z();
+    const bool wrong = std::floor((i + 1) * outliers) > std::floor(i * outliers);
+    const double error = wrong ? random.uniform(0.3, 0.7) : std::exp(0.02 * random.gaussian());
+    result.seen.depth.push_back(static_cast<float>(depth / 2.5 * error));
+  }
+  return result;
+}
+
+TEST(AlignPicture, FindsTheScaleDespiteOutliers) {
+  const Pictured p = picture(200, 0.3);
+  const PictureScale scale = align_picture(p.map, p.map.newest(), p.seen);
+  EXPECT_TRUE(scale.usable);
+  EXPECT_EQ(scale.points, 200);
+  EXPECT_NEAR(scale.scale / 2.5, 1, 0.03);
+  EXPECT_GT(scale.log_error, 0.015);
+  EXPECT_LT(scale.log_error, 0.08);
+}
+
+TEST(AlignPicture, KnowsHowWellThePictureFits) {
+  const Pictured p = picture(200, 0);
+  EXPECT_NEAR(align_picture(p.map, p.map.newest(), p.seen).log_error, 0.02, 0.006);
+}
+
+TEST(AlignPicture, RefusesFewPoints) {
+  Pictured p = picture(40, 0);
+  for (std::size_t i = 10; i < 40; ++i) p.seen.depth[i] = 0;  // unknown
+  const PictureScale scale = align_picture(p.map, p.map.newest(), p.seen);
+  EXPECT_FALSE(scale.usable);
+  EXPECT_EQ(scale.points, 10);
+}
+
+}  // namespace
+}  // namespace cairn

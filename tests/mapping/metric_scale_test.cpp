@@ -1,0 +1,62 @@
+#include "cairn/mapping/metric_scale.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+TEST(MetricScale, IsFreeUntilAPictureSaysSomething) {
+  const MetricScale scale;
+  EXPECT_FALSE(scale.estimate().known());
+  EXPECT_EQ(scale.estimate().value, 1);
+  EXPECT_EQ(scale.estimate().pictures, 0);
+  EXPECT_EQ(scale.picture_scale(), 0);
+}
+
+TEST(MetricScale, IsTheMedianOfThePictures) {
+  MetricScale scale;
+  for (const double units_a_metre : {0.5, 0.4, 40.0, 0.52, 0.001}) scale.add(units_a_metre, 0);
+  EXPECT_NEAR(scale.estimate().value, 2, 1e-12);  // metres a unit
+  EXPECT_NEAR(scale.picture_scale(), 0.5, 1e-12);
+  EXPECT_EQ(scale.estimate().pictures, 5);
+}
+
+TEST(MetricScale, RefusesWhatIsNoScale) {
+  MetricScale scale;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {0.0, -1.0, std::nan(""), kInfinity, -kInfinity}) {
+    scale.add(wrong, 0.1);
+  }
+  EXPECT_FALSE(scale.estimate().known());
+  scale.add(0.25, 0);
+  EXPECT_NEAR(scale.estimate().value, 4, 1e-12);
+  EXPECT_EQ(scale.estimate().pictures, 1);
+  EXPECT_EQ(scale.estimate().how, "measured depth") << "what was refused has no say";
+}
+
+TEST(MetricScale, MeasuredDepthGetsSurerWithMorePicturesAndPredictedDepthOnlySoFar) {
+  for (const double sigma : {0.0, 0.08}) {
+    MetricScale few, many;
+    for (int i = 0; i < 900; ++i) {
+      const double picture = std::exp(0.1 * ((i % 9) - 4));  // median 1, median deviation 0.2
+      many.add(picture, sigma);
+      if (i < 9) few.add(picture, sigma);
+    }
+    EXPECT_EQ(few.estimate().how, sigma > 0 ? "predicted depth" : "measured depth");
+    const double spread = 1.4826 * 0.2;
+    EXPECT_NEAR(few.estimate().sigma, std::hypot(sigma, spread / 3), 1e-6);
+    EXPECT_NEAR(many.estimate().sigma, std::hypot(sigma, spread / 30), 1e-6);
+  }
+}
+
+TEST(MetricScale, ItsSigmaIsThatOfTheLeastSurePicture) {
+  MetricScale scale;
+  for (const double sigma : {0.02, 0.2, 0.05}) scale.add(1, sigma);
+  EXPECT_NEAR(scale.estimate().sigma, 0.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,214 @@
+#include "cairn/mapping/plane_mapping.h"
+
+#include <gmock/gmock.h>
+
+#include "geometry/planes.h"
+#include "map/flat_map.h"
+
+namespace cairn {
+namespace {
+
+using testing::broken_planes;
+using testing::disturbed;
+using ::testing::ElementsAre;
+using testing::few_poses;
+using testing::grid_on;
+using testing::indices;
+using testing::IsNearPlane;
+using testing::keyframes_of;
+using testing::map_of;
+using testing::planes_of;
+using testing::points_of;
+using testing::Random;
+using testing::rectangle;
+using testing::seen_from;
+using ::testing::SizeIs;
+using testing::wall_corners;
+
+const Plane kWall(Eigen::Vector3d::UnitZ(), -4);
+constexpr double kScale = 2;  // units of the map a metre of the detector
+
+SeenPlane in_metres(SeenPlane seen) {
+  seen.plane = seen.plane.scaled(1 / kScale);
+  seen.centroid /= kScale;
+  seen.sigma_offset /= kScale;
+  for (Eigen::Vector3d& corner : seen.outline) corner /= kScale;
+  return seen;
+}
+
+// Planes by corners (world), disturbed, with so many keypoints each, one after the other.
+KeyframePerception perceive(const Map& map, KeyframeId id,
+                            const std::vector<std::vector<Eigen::Vector3d>>& planes,
+                            std::uint32_t keypoints, double angle_deg, double share) {
+  const Keyframe& keyframe = map.keyframes()[id];
+  KeyframePerception perception;
+  perception.frame = keyframe.frame;
+  perception.depth.assign(keyframe.frame->size(), 0);
+  for (const auto& corners : planes) {
+    SeenPlane seen = disturbed(seen_from(keyframe.T_wc, corners), angle_deg, share);
+    seen.keypoints =
+        indices(static_cast<std::uint32_t>(perception.planes.size()) * keypoints, keypoints);
+    seen.sigma_angle = 0.1;
+    seen.sigma_offset = 0.2;
+    perception.planes.push_back(in_metres(seen));
+  }
+  return perception;
+}
+
+TEST(RefinePlane, FindsThePlaneOfThePointsDespiteOutliers) {
+  Random random(12);
+  const Plane truth = Plane::through({0.4, -0.2, 3}, Eigen::Vector3d(0.3, 0.2, -0.9).normalized());
+  const Eigen::Vector3d n = truth.normal(), middle(0.4, -0.2, 3);
+  const auto axes = tangent_axes(n);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 60; ++i) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    const bool outlier = i % 10 < 3;
+    const double side = random.uniform(0, 1) < 0.5 ? -1 : 1;
+    const double off = outlier ? side * random.uniform(0.3, 1.2) : 0.03 * random.gaussian();
+    points.push_back(middle + axes * Eigen::Vector2d(x, y) + off * n);
+  }
+  SeenPlane exact;
+  exact.plane = truth;
+  exact.centroid = middle;
+  exact.outline = rectangle(middle, axes.col(0), axes.col(1));
+  exact.sigma_angle = 0.2;
+  exact.sigma_offset = 0.3;
+  SeenPlane seen = disturbed(exact, 15, 0.1);
+  ASSERT_GT(angle_between(seen.plane, truth), 0.2);
+  const int count = refine_plane(seen, points, 0.03);
+  EXPECT_LT(angle_between(seen.plane, truth) * 180 / M_PI, 2);
+  EXPECT_LT(std::abs(seen.plane.signed_distance(middle)), 0.015 * middle.norm());
+  EXPECT_GE(count, 38);
+  EXPECT_LE(count, 46);
+  EXPECT_NEAR(seen.plane.signed_distance(seen.centroid), 0, 1e-9);
+  for (const auto& corner : seen.outline) EXPECT_NEAR(seen.plane.signed_distance(corner), 0, 1e-9);
+}
+
+TEST(RefinePlane, WithoutPointsChangesNothing) {
+  const SeenPlane before = disturbed(seen_from(SE3(), wall_corners()), 8, 0.1);
+  SeenPlane seen = before;
+  EXPECT_EQ(refine_plane(seen, {}, 0.04), 0);
+  EXPECT_THAT(seen.plane, IsNearPlane(before.plane, 1e-6, 1e-9));
+  EXPECT_LT((seen.centroid - before.centroid).norm(), 1e-9);
+}
+
+TEST(RefinePlane, BelievesASurePredictionMoreThanAFewPoints) {
+  SeenPlane seen = seen_from(SE3(), wall_corners());
+  seen.sigma_angle = 1e-4;
+  seen.sigma_offset = 1e-4;
+  const std::vector<Eigen::Vector3d> points(3, Eigen::Vector3d(0.5, 0, 4.04));
+  refine_plane(seen, points, 0.04);
+  EXPECT_THAT(seen.plane, IsNearPlane(kWall, 0.1, 0.001));
+}
+
+class MapPlanesOfPictures : public ::testing::Test {
+ protected:
+  // 36 points of a wall, 36 of the floor before it, 6 in front of the wall.
+  MapPlanesOfPictures() {
+    points = grid_on(wall_corners(), 6);
+    const auto on_floor = grid_on(floor, 6);
+    points.insert(points.end(), on_floor.begin(), on_floor.end());
+    for (int i = 0; i < 6; ++i) points.emplace_back(0.2 * i - 0.5, 0.1 * i - 0.2, 3);
+    map = map_of(points, few_poses(3));
+  }
+  void show(KeyframeId id, const std::vector<std::vector<Eigen::Vector3d>>& planes) {
+    map_planes(map, id, perceive(map, id, planes, 36, 5, 0.04), kScale, 0.04, options);
+    EXPECT_EQ(broken_planes(map), "");
+  }
+
+  const std::vector<Eigen::Vector3d> floor = rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, 0, 1.2});
+  std::vector<Eigen::Vector3d> points;
+  Map map{testing::point_view()};
+  PlaneMappingOptions options;
+};
+
+TEST_F(MapPlanesOfPictures, OnePlaneInTwoPicturesIsOneLandmarkWithItsPoints) {
+  const auto keyframes = keyframes_of(map);
+  for (int i : {0, 1}) {
+    KeyframePerception seen = perceive(map, keyframes[i], {wall_corners()}, 36, 5, 0.04);
+    for (std::uint32_t k = 72; k < 78; ++k) seen.planes[0].keypoints.push_back(k);  // in front
+    map_planes(map, keyframes[i], seen, kScale, 0.04, options);
+  }
+  ASSERT_THAT(planes_of(map), SizeIs(1));
+  const PlaneId id = planes_of(map)[0];
+  const PlaneLandmark& landmark = map.planes()[id];
+  EXPECT_THAT(map.plane_in_world(id), IsNearPlane(kWall, 1, 0.04)) << "as the points say";
+  EXPECT_THAT(landmark.points, SizeIs(36)) << "all of the wall, none in front of it";
+  EXPECT_EQ(landmark.sightings, 2u);
+  ASSERT_THAT(landmark.observations, SizeIs(2));
+  for (const PlaneObservation& o : landmark.observations) {  // as the pictures say
+    const SE3& T_wc = map.keyframes()[o.keyframe].T_wc;
+    const SeenPlane said = disturbed(seen_from(T_wc, wall_corners()), 5, 0.04);
+    EXPECT_LT((o.centroid - said.centroid).norm(), 1e-9);
+    EXPECT_THAT(Plane::through(o.centroid, o.normal), IsNearPlane(said.plane, 1e-3, 1e-6));
+  }
+  EXPECT_EQ(broken_planes(map), "");
+}
+
+TEST_F(MapPlanesOfPictures, PlanesAreBoundOnlyWhereTheWorldIsManhattan) {
+  for (const bool manhattan : {false, true}) {
+    options.manhattan = manhattan;
+    map = map_of(points, few_poses(3));
+    for (const KeyframeId id : keyframes_of(map)) show(id, {wall_corners(), floor});
+    ASSERT_THAT(planes_of(map), SizeIs(2));
+    ASSERT_THAT(map.relations(), SizeIs(manhattan ? 1 : 0));
+    if (!manhattan) continue;
+    EXPECT_EQ(map.relations()[0].relation, PlaneRelation::kPerpendicular);
+  }
+}
+
+// What 0.3 units are from far away says nothing of shelves that are near.
+TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
+  const KeyframeId id = map.first();
+  map.add_plane(id, seen_from(SE3(), rectangle({-0.5, 0.3, 1}, {1, 0, 0}, {0, 0, 0.5})));
+  map.add_plane(id, seen_from(SE3(), rectangle({-0.5, 0.6, 1}, {1, 0, 0}, {0, 0, 0.5})));
+  show(id, {wall_corners()});
+  EXPECT_THAT(planes_of(map), SizeIs(3));
+}
+
+TEST_F(MapPlanesOfPictures, ATiltIsSurerWithMoreAndWiderPoints) {
+  SeenPlane wall = seen_from(SE3(), wall_corners());
+  wall.sigma_angle = 0.1;
+  const PlaneId id = map.add_plane(map.first(), wall);
+  const auto ids = points_of(map);
+  const double none = tilt_sigma(map, id, options);
+  for (int i : {14, 15, 20, 21}) map.set_plane_of(ids[i], id);  // in the middle
+  const double narrow = tilt_sigma(map, id, options);
+  for (int i : {0, 5, 30, 35}) map.set_plane_of(ids[i], id);  // the corners
+  const double wide = tilt_sigma(map, id, options);
+  for (int i = 0; i < 36; ++i) map.set_plane_of(ids[i], id);
+  const double all = tilt_sigma(map, id, options);
+  EXPECT_NEAR(none, 0.1, 0.003);
+  EXPECT_LT(narrow, none);
+  EXPECT_LT(wide, 0.7 * narrow);
+  EXPECT_LT(all, wide);
+  EXPECT_GT(all, 0.01) << "walls are no better";
+}
+
+TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSure) {
+  const auto ids = points_of(map);
+  SeenPlane wall = seen_from(SE3(), wall_corners());
+  wall.sigma_angle = 0.2;
+  const auto add = [&](int sightings, std::initializer_list<int> on_it) {
+    const PlaneId id = map.add_plane(map.first(), wall);
+    const auto keyframes = keyframes_of(map);
+    for (int i = 1; i < sightings; ++i) {
+      map.observe_plane(id, keyframes[i], seen_from(few_poses(3)[i], wall_corners()));
+      map.planes()[id].observations.back().sigma_angle = 0.2;
+    }
+    for (const int i : on_it) map.set_plane_of(ids[i], id);
+    return id;
+  };
+  options.min_points = 6;
+  const PlaneId sure = add(3, {0, 1, 4, 5, 30, 31, 34, 35});
+  add(3, {2, 3, 32, 33});                  // few points
+  add(2, {6, 7, 10, 11, 24, 25, 28, 29});  // few pictures
+  add(3, {12, 13, 14, 15, 16, 17});        // on a line
+  remove_unconfirmed_planes(map, options);
+  EXPECT_THAT(planes_of(map), ElementsAre(sure));
+  EXPECT_EQ(broken_planes(map), "");
+}
+
+}  // namespace
+}  // namespace cairn
