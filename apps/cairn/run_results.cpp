@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cairn/evaluation/evaluation.h"
 #include "cairn/geometry/error.h"
@@ -41,6 +42,13 @@ nlohmann::json options_json(Options options) {
 
 bool with_planes(const RunDescription& run) { return run.options.landmarks != Landmarks::kPoints; }
 
+// Planes of one label have one colour.
+Rgb colour_of(const MappedPlane& plane, const SlamResult& result) {
+  std::set<std::string> labels;
+  for (const MappedPlane& other : result.planes) labels.insert(other.label);
+  return plane_colour(std::size_t(std::distance(labels.begin(), labels.find(plane.label))));
+}
+
 void write_map(const fs::path& file, const SlamResult& result) {
   Eigen::AlignedBox3d space;
   for (const StampedPose& pose : result.trajectory) space.extend(pose.T_wc.translation());
@@ -49,7 +57,7 @@ void write_map(const fs::path& file, const SlamResult& result) {
   PlyModel model;
   for (const auto& point : result.points) model.add_point(point.position, point.colour);
   for (const MappedPlane& plane : result.planes) {
-    model.add_polygon(plane.outline, plane_colour(std::size_t(plane.id)));
+    model.add_polygon(plane.outline, colour_of(plane, result));
   }
   model.add_path(result.trajectory, {230, 60, 40}, 0.002 * size);
   for (const StampedPose& pose : result.keyframes) {
@@ -94,7 +102,7 @@ PlotScene plot_scene(const RunDescription& run, const SlamResult& result,
   }
   scene.title = run.name;
   for (const MappedPlane& plane : result.planes) {
-    scene.planes.push_back({plane.outline, plane.label, plane_colour(std::size_t(plane.id))});
+    scene.planes.push_back({plane.outline, plane.label, colour_of(plane, result)});
     for (Eigen::Vector3d& corner : scene.planes.back().outline) corner = align * corner;
   }
   scene.unit = report || result.scale.known() ? "m" : "map units";

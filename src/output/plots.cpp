@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "cairn/geometry/error.h"
 #include "cairn/output/atomic_file.h"
@@ -197,10 +198,12 @@ cv::Mat draw_map_plot(const PlotScene& scene) {
   Chart chart = plan_chart(scene);
   chart.title = scene.title.empty() ? "Map from above" : "Map of " + scene.title + " from above";
   add_points(scene, chart);
+  std::set<std::string> named;  // one entry a label in the legend
   for (const PlotScene::PlaneOutline& plane : scene.planes) {
     if (plane.outline.empty()) continue;
-    ChartSeries edge{
-        plane.label, {}, cv::Scalar(plane.colour.z(), plane.colour.y(), plane.colour.x())};
+    ChartSeries edge{named.insert(plane.label).second ? plane.label : "",
+                     {},
+                     cv::Scalar(plane.colour.z(), plane.colour.y(), plane.colour.x())};
     for (const Vector3d& corner : plane.outline) {
       edge.points.push_back(from_above(scene.view, corner));
     }
