@@ -10,12 +10,6 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-Eigen::Vector3d middle(const std::vector<Eigen::Vector3d>& corners) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& corner : corners) sum += corner;
-  return corners.empty() ? sum : Eigen::Vector3d(sum / double(corners.size()));
-}
-
 // How far a point, projected into the polygon's plane, is outside of a convex polygon whose corners
 // run counter-clockwise seen from where `normal` points; 0 inside.
 double distance_outside(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal,
@@ -35,7 +29,7 @@ double distance_outside(const std::vector<Eigen::Vector3d>& polygon, const Eigen
 bool touch(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b,
            const Eigen::Vector3d& normal_b, double margin) {
   if (a.empty() || b.empty()) return false;
-  if (distance_outside(b, normal_b, middle(a)) <= margin) return true;
+  if (distance_outside(b, normal_b, middle_of(a)) <= margin) return true;
   return std::any_of(a.begin(), a.end(), [&](const Eigen::Vector3d& corner) {
     return distance_outside(b, normal_b, corner) <= margin;
   });
@@ -131,8 +125,8 @@ bool one_surface(const Map& map, PlaneId a, PlaneId b, double distance,
   if (angle_between(plane_a, plane_b) > options.max_angle_deg * kRadians) return false;
   const auto outline_a = map.outline_in_world(a), outline_b = map.outline_in_world(b);
   const double margin = options.max_offset * distance;
-  if (std::abs(plane_a.signed_distance(middle(outline_b))) > margin) return false;
-  if (std::abs(plane_b.signed_distance(middle(outline_a))) > margin) return false;
+  if (std::abs(plane_a.signed_distance(middle_of(outline_b))) > margin) return false;
+  if (std::abs(plane_b.signed_distance(middle_of(outline_a))) > margin) return false;
   return touch(outline_a, outline_b, plane_b.normal(), margin) ||
          touch(outline_b, outline_a, plane_a.normal(), margin);
 }

@@ -34,10 +34,7 @@ void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) 
   std::vector<Eigen::Vector3d> corners = landmark.outline;
   for (const Eigen::Vector3d& corner : seen.outline) corners.push_back(T_rk * corner);
   landmark.outline = convex_outline(landmark.plane, corners);
-  const bool seen_before =
-      std::any_of(landmark.observations.begin(), landmark.observations.end(),
-                  [&](const PlaneObservation& o) { return o.keyframe == keyframe; });
-  if (!seen_before) landmark.observations.push_back(observation_of(keyframe, seen));
+  if (!landmark.seen_by(keyframe)) landmark.observations.push_back(observation_of(keyframe, seen));
 }
 
 void Map::erase_plane(PlaneId id) {
@@ -62,10 +59,7 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   target.sightings = std::max(target.sightings, moved.sightings);  // many of them are the same
   target.last_seen = std::max(target.last_seen, moved.last_seen);
   for (const PlaneObservation& o : moved.observations) {
-    const bool seen_before =
-        std::any_of(target.observations.begin(), target.observations.end(),
-                    [&](const PlaneObservation& other) { return other.keyframe == o.keyframe; });
-    if (!seen_before) target.observations.push_back(o);
+    if (!target.seen_by(o.keyframe)) target.observations.push_back(o);
   }
   std::vector<Eigen::Vector3d> corners = target.outline;
   for (const Eigen::Vector3d& corner : moved.outline) corners.push_back(T_rf * corner);
@@ -89,11 +83,9 @@ std::vector<Eigen::Vector3d> Map::outline_in_world(PlaneId id) const {
 // What the keyframe saw of planes is still true once it is gone: a neighbour takes it over, unless
 // it saw the plane itself. Without a neighbour the planes that hang on the keyframe go with it.
 void Map::move_planes(KeyframeId from, KeyframeId to) {
-  std::vector<PlaneId> gone;
   const SE3 T_tf = to.valid() ? keyframes_[to].T_wc.inverse() * keyframes_[from].T_wc : SE3();
   planes_.for_each([&](PlaneId id, PlaneLandmark& landmark) {
-    const bool to_sees = std::any_of(landmark.observations.begin(), landmark.observations.end(),
-                                     [&](const PlaneObservation& o) { return o.keyframe == to; });
+    const bool to_sees = landmark.seen_by(to);
     std::erase_if(landmark.observations, [&](const PlaneObservation& o) {
       return o.keyframe == from && (to_sees || !to.valid());
     });
@@ -107,10 +99,9 @@ void Map::move_planes(KeyframeId from, KeyframeId to) {
     if (to.valid()) {
       change_reference(landmark, to, T_tf);
     } else {
-      gone.push_back(id);
+      erase_plane(id);
     }
   });
-  for (const PlaneId id : gone) erase_plane(id);
 }
 
 }  // namespace cairn

@@ -11,6 +11,17 @@ const std::string& PlaneLandmark::label() const {
   return most == votes.end() ? kNone : most->first;
 }
 
+bool PlaneLandmark::seen_by(KeyframeId keyframe) const {
+  return std::any_of(observations.begin(), observations.end(),
+                     [&](const PlaneObservation& o) { return o.keyframe == keyframe; });
+}
+
+Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : outline) sum += corner;
+  return outline.empty() ? sum : Eigen::Vector3d(sum / double(outline.size()));
+}
+
 void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& T_nr) {
   landmark.reference = reference;
   landmark.plane = landmark.plane.transformed(T_nr);

@@ -42,6 +42,7 @@ struct PlaneLandmark {
   std::uint32_t sightings = 0;                      ///< pictures that showed it, ever
   std::uint32_t last_seen = 0;                      ///< sequence number of the newest of them
 
+  bool seen_by(KeyframeId keyframe) const;
   /// The label that most pictures gave it; of equal ones the first by name.
   const std::string& label() const;
 };
@@ -53,6 +54,9 @@ void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& 
 /// chain), counter-clockwise seen from the side that the normal points to.
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,
                                             const std::vector<Eigen::Vector3d>& points);
+
+/// The mean of an outline's corners; the origin where there are none.
+Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline);
 
 enum class PlaneRelation { kParallel, kPerpendicular };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "cairn/geometry/median.h"
+
 namespace cairn {
 namespace {
 
@@ -127,11 +129,6 @@ PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePercepti
   PictureScale result;
   result.points = static_cast<int>(logs.size());
   if (result.points < kMinScalePoints) return result;
-  const auto median = [](std::vector<double>& values) {
-    const auto mid = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), mid, values.end());
-    return *mid;
-  };
   const double log_scale = median(logs);
   for (double& value : logs) value = std::abs(value - log_scale);
   result.usable = true;

@@ -3,28 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/geometry/median.h"
+
 namespace cairn {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto mid = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), mid, values.end());
-  return *mid;
-}
-
-}  // namespace
-
 void MetricScale::add(double picture_scale, double sigma) {
   if (!std::isfinite(picture_scale) || !(picture_scale > 0)) return;
   logs_.push_back(-std::log(picture_scale));
   sigma_ = std::max(sigma_, sigma);
 }
 
-double MetricScale::picture_scale() const { return logs_.empty() ? 0 : std::exp(-median(logs_)); }
+double MetricScale::picture_scale() const {
+  std::vector<double> logs = logs_;  // in order of time, which median changes
+  return logs.empty() ? 0 : std::exp(-median(logs));
+}
 
 ScaleEstimate MetricScale::estimate() const {
   if (logs_.empty()) return {};
-  const double middle = median(logs_);
+  std::vector<double> logs = logs_;
+  const double middle = median(logs);
   std::vector<double> deviations;
   deviations.reserve(logs_.size());
   for (const double value : logs_) deviations.push_back(std::abs(value - middle));

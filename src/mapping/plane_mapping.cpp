@@ -11,12 +11,12 @@
 namespace cairn {
 namespace {
 
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kGate = 3;              // σ
 constexpr double kMinTiltSigma = 0.017;  // a degree: walls are no better
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
-constexpr double kMaxRelationAngle = 8 * 3.14159265358979 / 180;
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kMaxRelationAngle = 8 * kRadians;
 
 SeenPlane scaled(SeenPlane seen, double scale) {
   seen.plane = seen.plane.scaled(scale);
@@ -59,10 +59,7 @@ void gather_points(Map& map, const Keyframe& keyframe, const SeenPlane& seen, Pl
 
 // From where a landmark is seen to its middle.
 double viewing_distance(const Map& map, PlaneId id) {
-  const PlaneLandmark& landmark = map.planes()[id];
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& corner : landmark.outline) middle += corner;
-  return landmark.outline.empty() ? 0 : (middle / double(landmark.outline.size())).norm();
+  return middle_of(map.planes()[id].outline).norm();  // outlines are in the reference's frame
 }
 
 void fuse_planes(Map& map, const PlaneAssociationOptions& options) {
@@ -91,12 +88,10 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
 }
 
 void cull_planes(Map& map, std::uint32_t now, const PlaneMappingOptions& options) {
-  std::vector<PlaneId> gone;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     const bool late = now > landmark.last_seen + std::uint32_t(options.probation);
-    if (late && !confirmed(map, id, options)) gone.push_back(id);
+    if (late && !confirmed(map, id, options)) map.erase_plane(id);
   });
-  for (const PlaneId id : gone) map.erase_plane(id);
 }
 
 // A relation begins where the angle is within two σ of it, and ends beyond three.
@@ -246,11 +241,9 @@ void map_planes(Map& map, KeyframeId id, const KeyframePerception& seen, double 
 }
 
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
-  std::vector<PlaneId> gone;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark&) {
-    if (!confirmed(map, id, options)) gone.push_back(id);
+    if (!confirmed(map, id, options)) map.erase_plane(id);
   });
-  for (const PlaneId id : gone) map.erase_plane(id);
 }
 
 }  // namespace cairn

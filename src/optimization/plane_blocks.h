@@ -31,7 +31,6 @@ class PlaneBlocks {
   /// on. What it adds to the problem is its own, and must outlive the problem's use.
   void add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
               const PoseBlock& pose_of, const PointBlock& point_of);
-  bool empty() const { return planes_.empty(); }
   /// After a change of the map's unit.
   void scale(double factor);
   void write_back(Map& map) const;

@@ -56,7 +56,7 @@ std::vector<DetectedPlane> planes_of_maps(const SceneMaps& maps,
   if (!maps.normals.empty()) of_network.normals = maps.normals;
   auto components =
       std::async(std::launch::async, [&] { return planes_of_components(cloud, hypothesis); });
-  const int least = std::max(8, int(hypothesis.min_share * rays.size().area()));
+  const int least = hypothesis.least_pixels(rays.size());
   const auto regions = maps.labels.empty()
                            ? unlabelled_regions(bgr, rays.size(), least, options.colour_step)
                            : label_regions(maps.labels, planar_labels, least);

@@ -30,7 +30,7 @@ std::optional<Vector4d> checked_fit(const OrganizedCloud& cloud, const GridRegio
                                     const Vector4d& like, double max_angle_deg,
                                     const PlaneHypothesisOptions& hypothesis,
                                     const PlaneAgreementOptions& options) {
-  const auto fit = fit_plane(cloud, region, hypothesis);
+  const auto fit = fit_region(cloud, region, hypothesis);
   if (!fit || fit->inlier_share < options.min_inlier_share ||
       angle_deg(fit->plane, like) > max_angle_deg) {
     return std::nullopt;
@@ -51,7 +51,7 @@ std::vector<AgreedPlane> agreeing_planes(const OrganizedCloud& cloud,
                                          const std::vector<PlaneHypothesis>& of_components,
                                          const PlaneHypothesisOptions& hypothesis,
                                          const PlaneAgreementOptions& options) {
-  const int least = std::max(8, int(hypothesis.min_share * cloud.size().area()));
+  const int least = hypothesis.least_pixels(cloud.size());
   std::vector<AgreedPlane> agreed;
   for (const PlaneHypothesis& second : of_components) {
     const cv::Mat_<uchar> mask = mask_of_region(second.pixels, cloud.size());
@@ -141,7 +141,7 @@ std::vector<DetectedPlane> detected_planes(const OrganizedCloud& cloud, const cv
   std::vector<DetectedPlane> detected;
   for (const AgreedPlane& agreed : planes) {
     const GridRegion& pixels = agreed.plane.pixels;
-    const auto fit = fit_plane(cloud, pixels, hypothesis);
+    const auto fit = fit_region(cloud, pixels, hypothesis);
     if (!fit) continue;
     cv::Mat_<uchar> mask = mask_of_region(pixels, cloud.size());
     fill_small_holes(mask, options.max_hole_share);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "cairn/geometry/median.h"
 #include "cairn/perception/inverse_depth_fit.h"
 
 namespace cairn {
@@ -18,16 +19,6 @@ constexpr int kFitRounds = 8, kModeRounds = 3;
 constexpr std::size_t kModeCandidates = 64, kModeVoters = 400;
 
 double cosine(double degrees) { return std::cos(degrees * M_PI / 180); }
-
-int least_pixels(const OrganizedCloud& cloud, const PlaneHypothesisOptions& options) {
-  return std::max(8, int(options.min_share * cloud.size().area()));
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The direction that most normals of a region lie around; nothing for an empty region. Candidates
 // and voters are spread evenly over the region: no chance is involved.
@@ -96,7 +87,7 @@ cv::Mat_<uchar> pixels_on(const OrganizedCloud& cloud, const GridRegion& piece,
     on(p) = 255;
     ++count;
   }
-  return count >= least_pixels(cloud, options) ? on : cv::Mat_<uchar>();
+  return count >= options.least_pixels(cloud.size()) ? on : cv::Mat_<uchar>();
 }
 
 // Cuts planes out of a region, the commonest direction first: its connected pieces, each with a
@@ -104,7 +95,7 @@ cv::Mat_<uchar> pixels_on(const OrganizedCloud& cloud, const GridRegion& piece,
 void peel(const OrganizedCloud& cloud, GridRegion region, const PlaneHypothesisOptions& options,
           const std::string& label, const PlaneOf& plane_of, std::vector<PlaneHypothesis>& found) {
   const double min_cosine = cosine(options.max_normal_deg);
-  const int least = least_pixels(cloud, options);
+  const int least = options.least_pixels(cloud.size());
   for (int i = 0; i < options.max_directions && int(region.size()) >= least; ++i) {
     const auto mode = normal_mode(cloud, region, min_cosine);
     if (!mode) return;
@@ -127,7 +118,7 @@ void peel(const OrganizedCloud& cloud, GridRegion region, const PlaneHypothesisO
   }
 }
 
-// One round of fit_plane: the weighted least squares in inverse depth.
+// One round of fit_region: the weighted least squares in inverse depth.
 std::optional<Vector3d> weighted_fit(const OrganizedCloud& cloud, const GridRegion& region,
                                      const std::vector<double>& weights, const DepthNoise& noise) {
   InverseDepthFit fit;
@@ -144,7 +135,7 @@ std::optional<Vector3d> weighted_fit(const OrganizedCloud& cloud, const GridRegi
 // Fills what a fit says besides its plane; false if hardly a point lies on it.
 bool describe(const OrganizedCloud& cloud, const GridRegion& region,
               const std::vector<double>& residuals, const PlaneHypothesisOptions& options,
-              PlaneFit& result) {
+              RegionPlane& result) {
   std::vector<double> relative;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Vector3d sum = Vector3d::Zero();
@@ -170,6 +161,10 @@ bool describe(const OrganizedCloud& cloud, const GridRegion& region,
 
 }  // namespace
 
+int PlaneHypothesisOptions::least_pixels(const cv::Size& grid) const {
+  return std::max(8, int(min_share * grid.area()));
+}
+
 double distance_in_sigmas(const OrganizedCloud& cloud, const cv::Point& p, const Vector4d& plane,
                           const DepthNoise& noise) {
   const double z = cloud.depth(p), w = inverse_depth_at(plane, cloud.ray(p.y, p.x));
@@ -177,9 +172,9 @@ double distance_in_sigmas(const OrganizedCloud& cloud, const cv::Point& p, const
   return std::abs(z - 1 / w) / noise.sigma(z);
 }
 
-std::optional<PlaneFit> fit_plane(const OrganizedCloud& cloud, const GridRegion& region,
-                                  const PlaneHypothesisOptions& options) {
-  PlaneFit result;
+std::optional<RegionPlane> fit_region(const OrganizedCloud& cloud, const GridRegion& region,
+                                      const PlaneHypothesisOptions& options) {
+  RegionPlane result;
   std::vector<double> weights(region.size(), 1), residuals;
   for (int round = 0; round < kFitRounds; ++round) {
     const auto m = weighted_fit(cloud, region, weights, options.noise);
@@ -204,7 +199,7 @@ std::vector<PlaneHypothesis> planes_of_regions(const OrganizedCloud& cloud,
                                                const std::vector<LabelledRegion>& regions,
                                                const PlaneHypothesisOptions& options) {
   std::vector<PlaneHypothesis> found;
-  const int least = least_pixels(cloud, options);
+  const int least = options.least_pixels(cloud.size());
   for (const LabelledRegion& region : regions) {
     GridRegion known;
     std::copy_if(region.pixels.begin(), region.pixels.end(), std::back_inserter(known),
@@ -236,14 +231,14 @@ std::vector<PlaneHypothesis> planes_of_components(const OrganizedCloud& cloud,
     return distance_in_sigmas(cloud, b, tangent, options.noise) < options.max_step_sigmas;
   };
   const auto components = connected_regions(
-      cloud.size(), least_pixels(cloud, options),
+      cloud.size(), options.least_pixels(cloud.size()),
       [&](const cv::Point& p) { return cloud.known(p.y, p.x); }, same);
   std::vector<PlaneHypothesis> found;
   for (const GridRegion& component : components) {
     peel(
         cloud, component, options, "",
         [&](const GridRegion& around, const Vector3d&) -> std::optional<Vector4d> {
-          const auto fit = fit_plane(cloud, around, options);
+          const auto fit = fit_region(cloud, around, options);
           return fit ? std::optional<Vector4d>(fit->plane) : std::nullopt;
         },
         found);

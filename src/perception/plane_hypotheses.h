@@ -19,6 +19,9 @@ struct PlaneHypothesisOptions {
   double max_step_sigmas = 1.5;    ///< of a neighbour's distance from the other's tangent plane
   double min_share = 0.008;        ///< of the grid; smaller planes are left out
   int max_directions = 6;          ///< of normals in one region or component
+
+  /// min_share of a grid, but not less than a fit needs.
+  int least_pixels(const cv::Size& grid) const;
 };
 
 /// A plane and the pixels of the grid that speak for it.
@@ -29,7 +32,7 @@ struct PlaneHypothesis {
 };
 
 /// How a plane fits a region.
-struct PlaneFit {
+struct RegionPlane {
   Eigen::Vector4d plane = Eigen::Vector4d::Zero();  ///< camera frame, unit normal, metres, d > 0
   double residual = 0;                              ///< robust RMS of ln(depth / the plane's depth)
   double inlier_share = 0;                          ///< of the region, within max_distance_sigmas
@@ -39,8 +42,8 @@ struct PlaneFit {
 
 /// Robust fit (Tukey's biweight, reweighted) of a plane to the depth of a region, in inverse depth.
 /// Nothing if the region's points span no plane.
-std::optional<PlaneFit> fit_plane(const OrganizedCloud& cloud, const GridRegion& region,
-                                  const PlaneHypothesisOptions& options);
+std::optional<RegionPlane> fit_region(const OrganizedCloud& cloud, const GridRegion& region,
+                                      const PlaneHypothesisOptions& options);
 
 /// A labelled region, connected.
 struct LabelledRegion {

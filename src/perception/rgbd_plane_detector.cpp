@@ -68,7 +68,7 @@ DetectedFrame RgbdPlaneDetector::detect(const PerceptionInput& input) {
       normals_from_depth(rays_, cloud.depth, options_.hypothesis.noise, options_.normals);
   std::vector<AgreedPlane> planes;
   for (PlaneHypothesis& plane : planes_of_components(cloud, options_.hypothesis)) {
-    const auto fit = fit_plane(cloud, plane.pixels, options_.hypothesis);
+    const auto fit = fit_region(cloud, plane.pixels, options_.hypothesis);
     if (!fit || fit->inlier_share < options_.agreement.min_inlier_share) continue;
     plane.plane = fit->plane;
     planes.push_back({std::move(plane), fit->inlier_share});

@@ -100,12 +100,12 @@ TEST(PlaneHypotheses, AFitBearsOutliers) {
   for (const cv::Point& p : wall) {
     if (sampler.below(10) < 2) room.cloud.depth(p) *= float(1.2 + sampler.uniform());
   }
-  const auto fit = fit_plane(room.cloud, wall, room.options);
+  const auto fit = fit_region(room.cloud, wall, room.options);
   ASSERT_TRUE(fit.has_value());
   EXPECT_LT(angle_deg(fit->plane, room.maps.planes[0]), 0.5);
   EXPECT_NEAR(fit->inlier_share, 0.8, 0.03);
-  EXPECT_FALSE(fit_plane(room.cloud, {{3, 3}, {3, 3}}, room.options).has_value());
-  EXPECT_FALSE(fit_plane(room.cloud, {}, room.options).has_value());
+  EXPECT_FALSE(fit_region(room.cloud, {{3, 3}, {3, 3}}, room.options).has_value());
+  EXPECT_FALSE(fit_region(room.cloud, {}, room.options).has_value());
 }
 
 TEST(PlaneAgreement, AcceptsOnlyWhereBothAgree) {

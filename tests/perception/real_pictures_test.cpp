@@ -122,7 +122,7 @@ void compare(const DetectedFrame& frame, const std::string& time, Comparison& re
       if (measured.depth(p) > 0) known.push_back(p);
     }
     if (known.size() < all.size() / 2) continue;
-    const auto truth = fit_plane(measured, known, sensor);
+    const auto truth = fit_region(measured, known, sensor);
     if (!truth || truth->inlier_share < 0.6) continue;
     Eigen::Vector3d ray = Eigen::Vector3d::Zero();
     for (const cv::Point& p : known) ray += measured.ray(p.y, p.x) / double(known.size());
