@@ -24,10 +24,10 @@ struct Arguments {
   std::string out, scene = "desk", sensor = "mono", truth = "all", perception = "simulated";
   int frames = -1, width = 640, height = 480, samples = 4;
   std::uint64_t seed = 0;
-  double readout_ms = 0;
+  double readout_ms = -1;  // the scene's
   bool force = false, no_progress = false;
   bool no_blur = false, no_distortion = false, no_vignetting = false, no_exposure = false,
-       no_noise = false;
+       no_noise = false, no_mosaic = false;
 };
 
 SynthSensor sensor_of(const std::string& name) {
@@ -35,14 +35,15 @@ SynthSensor sensor_of(const std::string& name) {
   return name == "rgbd" ? SynthSensor::kRgbd : SynthSensor::kMono;
 }
 
-RenderOptions render_options(const Arguments& arguments) {
-  RenderOptions options;
+RenderOptions render_options(const Arguments& arguments, SceneKind kind) {
+  RenderOptions options = default_options(kind);
   options.samples = arguments.samples;
-  options.readout = arguments.readout_ms / 1000;
+  if (arguments.readout_ms >= 0) options.readout = arguments.readout_ms / 1000;
   if (arguments.no_blur) options.exposure = 0;
   if (arguments.no_vignetting) options.sensor.vignetting = 0;
   if (arguments.no_exposure) options.sensor.auto_exposure = 0;
   if (arguments.no_noise) options.sensor.full_well = options.sensor.read_noise = 0;
+  options.sensor.mosaic = !arguments.no_mosaic;
   return options;
 }
 
@@ -50,7 +51,7 @@ RenderOptions render_options(const Arguments& arguments) {
 int render_frames(const Arguments& arguments, const World& world, const Camera& camera, int frames,
                   SequenceFolder& folder, VisibilityCount& visible) {
   const SynthSensor sensor = sensor_of(arguments.sensor);
-  const RenderOptions options = render_options(arguments);
+  const RenderOptions options = render_options(arguments, parse_scene_kind(arguments.scene));
   RenderOptions right = options;
   right.T_bc = SE3(Eigen::Quaterniond::Identity(), {kBaseline, 0, 0});
   const bool all = arguments.truth == "all", deep = sensor == SynthSensor::kRgbd;
@@ -118,11 +119,11 @@ void add_switches(CLI::App& command, Arguments& arguments) {
   command.add_flag("--no-vignetting", arguments.no_vignetting, "corners as bright as the middle");
   command.add_flag("--no-auto-exposure", arguments.no_exposure, "one exposure for all pictures");
   command.add_flag("--no-noise", arguments.no_noise, "a sensor without noise");
+  command.add_flag("--no-mosaic", arguments.no_mosaic, "a sensor that sees all colours everywhere");
   command
       .add_option("--rolling-shutter", arguments.readout_ms,
-                  "milliseconds from the first row to the last")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+                  "milliseconds from the first row to the last [20, in the street 0]")
+      ->check(CLI::Range(0.0, 100.0));
 }
 
 }  // namespace

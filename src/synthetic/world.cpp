@@ -255,4 +255,10 @@ Camera default_camera(SceneKind kind, int width, int height, bool distorted) {
                 {focal, focal, 0.497 * width, 0.508 * height}, lens);
 }
 
+RenderOptions default_options(SceneKind kind) {
+  RenderOptions options;
+  if (kind != SceneKind::kStreet) options.exposure = 0.033, options.readout = 0.025;
+  return options;
+}
+
 }  // namespace cairn

@@ -59,4 +59,7 @@ class World {
 /// wished.
 Camera default_camera(SceneKind kind, int width, int height, bool distorted);
 
+/// How such a camera takes pictures: slowly and row by row in the hand, at once on a car.
+RenderOptions default_options(SceneKind kind);
+
 }  // namespace cairn

@@ -203,8 +203,12 @@ TEST(World, PartsOfTheSensorCanBeSwitchedOff) {
   const Camera camera = small_camera(false);
   RenderOptions quiet;
   quiet.exposure = 0;
-  quiet.sensor = {
-      .vignetting = 0, .auto_exposure = 0, .blur_px = 0, .full_well = 0, .read_noise = 0};
+  quiet.sensor = {.vignetting = 0,
+                  .auto_exposure = 0,
+                  .blur_px = 0,
+                  .full_well = 0,
+                  .read_noise = 0,
+                  .mosaic = false};
   const cv::Mat base = desk().render(camera, 1, quiet);
   const auto differs = [&](const RenderOptions& options) {
     return cv::norm(base, desk().render(camera, 1, options), cv::NORM_L1) / double(base.total());
@@ -218,6 +222,8 @@ TEST(World, PartsOfTheSensorCanBeSwitchedOff) {
   changed = quiet, changed.sensor.vignetting = 0.3;
   EXPECT_GT(differs(changed), 2);
   changed = quiet, changed.sensor.full_well = 2000;
+  EXPECT_GT(differs(changed), 0.5);
+  changed = quiet, changed.sensor.mosaic = true;
   EXPECT_GT(differs(changed), 0.5);
   changed = quiet, changed.sensor.blur_px = 1;
   EXPECT_GT(differs(changed), 0.5);

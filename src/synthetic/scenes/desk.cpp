@@ -149,12 +149,12 @@ Scene make_desk(std::uint64_t seed) {
     const double elevation = 0.55 + 0.12 * hand.wander(t, 2, 9);
     const double radius = 1.25 + 0.18 * hand.wander(t, 3, 11);
     const Eigen::Vector3d target =
-        middle + Eigen::Vector3d(0.14 * hand.wander(t, 4, 8), 0.10 * hand.wander(t, 5, 7),
-                                 0.10 + 0.06 * hand.wander(t, 6, 6));
+        middle + Eigen::Vector3d(0.34 * hand.wander(t, 4, 7), 0.16 * hand.wander(t, 5, 6),
+                                 0.10 + 0.10 * hand.wander(t, 6, 5));
     const Eigen::Vector3d from(std::cos(azimuth) * std::cos(elevation),
                                std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
     return looking_at(middle + radius * from, target, 0.05 * hand.wander(t, 7, 6)) *
-           hand.tremble(t);
+           hand.tremble(t, 1.8);
   };
   scene.duration = 10;
   return std::move(layout).finish();
