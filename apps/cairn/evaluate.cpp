@@ -24,13 +24,18 @@ struct Arguments {
   bool json = false;
 };
 
-// The ground truth that the user names, or else the run knew of, or else is that of the world.
-std::string find_groundtruth(const Arguments& arguments) {
-  if (!arguments.groundtruth.empty()) return arguments.groundtruth;
-  const fs::path run = arguments.run;
+// What the run says of itself; empty if it says nothing.
+nlohmann::json read_summary(const fs::path& run) {
   std::ifstream file(run / "summary.json");
   const auto summary = nlohmann::json::parse(file, nullptr, false);
-  const auto value = summary.is_object() ? summary.value("groundtruth", nlohmann::json()) : nullptr;
+  return summary.is_object() ? summary : nlohmann::json::object();
+}
+
+// The ground truth that the user names, or else the run knew of, or else is that of the world.
+std::string find_groundtruth(const Arguments& arguments, const nlohmann::json& summary) {
+  if (!arguments.groundtruth.empty()) return arguments.groundtruth;
+  const fs::path run = arguments.run;
+  const auto value = summary.value("groundtruth", nlohmann::json());
   if (value.is_string()) return value.get<std::string>();
   const fs::path beside_world = fs::path(arguments.world).parent_path() / "groundtruth.txt";
   if (!arguments.world.empty() && fs::exists(beside_world)) return beside_world.string();
@@ -62,10 +67,14 @@ int evaluate_run(const Arguments& arguments) {
                                          ": --world judges the objects and planes of a run; give "
                                          "the folder that `cairn run` wrote");
   }
-  const std::string truth = find_groundtruth(arguments);
+  const nlohmann::json summary = read_summary(run);
+  const std::string truth = find_groundtruth(arguments, summary);
   const Trajectory estimate = read_groundtruth(folder ? run / "trajectory.txt" : run, "tum");
   const auto times = folder ? frame_times(run) : std::vector<double>();
-  const EvaluationReport report = evaluate(read_groundtruth(truth), estimate, options, times);
+  EvaluationReport report = evaluate(read_groundtruth(truth), estimate, options, times);
+  // A unit that nobody claims to be a metre cannot be wrong.
+  const nlohmann::json scale = summary.value("scale", nlohmann::json());
+  if (scale.is_object() && scale.value("how", "") == "none") report.scale_error.reset();
   std::optional<WorldReport> world;
   if (!arguments.world.empty()) {
     WorldEvaluationOptions world_options = arguments.world_options;

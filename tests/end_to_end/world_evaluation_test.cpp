@@ -60,6 +60,15 @@ TEST_F(WorldEvaluation, UsesTheAlignmentOfTheTrajectory) {
   EXPECT_EQ(nlohmann::json::parse(ran.output).at("objects").at("missed"), 1);
 }
 
+TEST_F(WorldEvaluation, AUnitThatNobodyCallsAMetreIsNotWrong) {
+  const auto scale_error = [&](const std::string& how) {
+    std::ofstream(folder_ / "run/summary.json") << R"({"scale": {"how": ")" << how << R"("}})";
+    return nlohmann::json::parse(evaluate("--json").output).at("scale_error");
+  };
+  EXPECT_NEAR(scale_error("predicted depth").get<double>(), 1, 1e-4);
+  EXPECT_TRUE(scale_error("none").is_null());
+}
+
 TEST_F(WorldEvaluation, PrintsATableForPeople) {
   const Ran ran = evaluate("");
   EXPECT_EQ(ran.exit_code, 0);

@@ -106,6 +106,48 @@ TEST_P(AnyScene, StandsThingsOnTheirPlanesAndNotBesideThem) {
   }
 }
 
+Eigen::AlignedBox3f bounds(const Mesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Mesh::Vertex& vertex : mesh.vertices) box.extend(vertex.position);
+  return box;
+}
+
+// Does an edge of `mesh`, made a hundredth smaller so that things may touch, pass through a surface
+// of the thing?
+bool pierces(const Mesh& mesh, const RayCaster& caster, std::int32_t thing) {
+  const Vector3f middle = bounds(mesh).center();
+  const auto smaller = [&](std::uint32_t i) {
+    return Vector3f(middle + 0.99f * (mesh.vertices[i].position - middle));
+  };
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Mesh::Triangle& t) {
+    const std::array<std::uint32_t, 4> corners = {t.a, t.b, t.c, t.a};
+    for (int i = 0; i < 3; ++i) {
+      if (corners[i] > corners[i + 1]) continue;  // the neighbour's
+      const Vector3f from = smaller(corners[i]), along = smaller(corners[i + 1]) - from;
+      const RayHit hit = caster.cast_at(thing, from, along);
+      if (hit.found() && hit.distance < 1) return true;
+    }
+    return false;
+  });
+}
+
+TEST_P(AnyScene, HasNoObjectInsideAnotherThing) {
+  const auto [name, seed] = GetParam();
+  const Scene scene = make_scene(parse_scene_kind(name), std::uint64_t(seed));
+  const std::vector<Mesh> meshes = placed_meshes(scene);
+  const RayCaster caster(meshes);
+  for (std::size_t a = 0; a < meshes.size(); ++a) {
+    if (!scene.things[a].is_object) continue;
+    const Eigen::AlignedBox3f box = bounds(meshes[a]);
+    for (std::size_t b = 0; b < meshes.size(); ++b) {
+      if (a == b || !box.intersects(bounds(meshes[b]))) continue;
+      EXPECT_FALSE(pierces(meshes[a], caster, std::int32_t(b)))
+          << scene.things[a].model.class_name << " and " << b << " "
+          << scene.things[b].model.class_name;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, AnyScene,
                          testing::Combine(testing::Values("desk", "room", "corridor", "street"),
                                           testing::Range(0, 6)));

@@ -115,9 +115,12 @@ Scene make_corridor(std::uint64_t seed) {
   Scene& scene = layout.scene();
   scene.ambient = Colour::Constant(0.05f);
   // Something to meet at the bend.
-  const auto at = plan.corners()[5];
-  layout.add_object(make_model("potted plant", layout.seed()),
-                    standing({at.x() + 0.35f, at.y() - 0.35f, 0}, layout.uniform(0, 6)), 0);
+  Model plant = make_model("potted plant", layout.seed());
+  const float yaw = layout.uniform(0, 6);
+  const Eigen::AlignedBox3f leaves = extent(plant, standing(Vector3f::Zero(), yaw));
+  const Vector3f corner(plan.corners()[5].x() + 0.03f, plan.corners()[5].y() - 0.03f, 0);
+  layout.add_object(std::move(plant),
+                    standing(corner - Vector3f(leaves.min().x(), leaves.max().y(), 0), yaw), 0);
   layout.add_object(make_model("suitcase", layout.seed()),
                     standing({plan.width / 2 + plan.second - 0.5f, plan.first - 0.35f, 0},
                              layout.uniform(-1.8f, -1.3f)),

@@ -1,4 +1,6 @@
 // A table in the corner of a room, with what lies on tables, filmed by hand.
+#include <limits>
+
 #include "cairn/synthetic/primitives.h"
 #include "cairn/synthetic/scenes/hand_motion.h"
 #include "cairn/synthetic/scenes/indoors.h"
@@ -104,19 +106,30 @@ void furnish(Layout& layout, Room& room, const Table& table) {
     add_books(layout, T_ws, shelf, board, layout.add_plane("shelf", outline));
   }
   layout.add_surface("shelf", std::move(shelf.mesh), T_ws, room.floor_plane());
-  const int cabinet = stand_at_wall(layout, room, 0, layout.uniform(0.5f, 0.9f),
-                                    make_model("cabinet", layout.seed()));
+  Model model = make_model("cabinet", layout.seed());
+  const SE3 T_wo = room.at_wall(0, layout.uniform(0.5f, 0.9f), model);
+  const int cabinet = layout.add_object(std::move(model), T_wo, room.floor_plane());
   lay_things(layout, layout.add_top(cabinet, "cabinet"), {"potted plant", "vase", "bowl", "clock"});
   // A chair that is lower than the camera, pushed under the table.
   Model chair = make_model("chair", layout.seed());
   for (int i = 0; i < 20 && extent(chair).max().z() > 0.95f; ++i) {
     chair = make_model("chair", layout.seed());
   }
-  layout.add_object(std::move(chair),
-                    standing({table.centre.x() + layout.uniform(-0.5f, 0.5f),
-                              table.centre.y() + table.half.y() + 0.18f, 0},
-                             -kToViewer + layout.uniform(-0.5f, 0.5f)),
-                    room.floor_plane());
+  const float aside = layout.uniform(-0.35f, 0.35f);
+  const float facing = -kToViewer + layout.uniform(-0.5f, 0.5f);
+  // What is as high as the table top stays in front of it.
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const Mesh::Vertex& vertex : chair.mesh.vertices) {
+    if (vertex.position.z() < table.centre.z() - 0.12f) continue;
+    const SE3 turned = standing(Vector3f::Zero(), facing);
+    nearest = std::min(nearest, float((turned * vertex.position.cast<double>()).y()));
+  }
+  layout.add_object(
+      std::move(chair),
+      standing({table.centre.x() + aside,
+                table.centre.y() + table.half.y() + layout.uniform(0.03f, 0.1f) - nearest, 0},
+               facing),
+      room.floor_plane());
 }
 
 }  // namespace
@@ -134,9 +147,9 @@ Scene make_desk(std::uint64_t seed) {
                     layout.uniform(1.55f, 1.75f), layout.uniform(0.7f, 1.05f));
   }
   room.add_poster(0, layout.uniform(-1.2f, -0.6f), 1.6f, layout.uniform(0.8f, 1.1f));
-  room.add_poster(2, layout.uniform(-0.5f, 0.2f), 1.6f, layout.uniform(0.8f, 1.1f));
   const float noon = layout.uniform(0.8f, 1.2f);
-  room.add_window(2, -0.9f, 1.5f, 1.3f, 1.2f, noon * Colour(4.6f, 5.2f, 6.0f));
+  // Between the shelf and whoever films.
+  room.add_window(2, 1.0f, 1.5f, 1.0f, 1.4f, noon * Colour(4.6f, 5.2f, 6.0f));
   room.add_ceiling_lamp({0.2f, 0}, {1.2f, 0.3f},
                         layout.uniform(0.7f, 1.2f) * Colour(9.0f, 8.0f, 6.6f));
   room.add_door(1, layout.uniform(-0.8f, 0.8f), Colour(0.5f, 0.42f, 0.33f));

@@ -20,8 +20,10 @@ Shelf make_shelf(Layout& layout, float width, float height, int boards) {
             side);
   }
   add_box(shelf.mesh, {-shelf.depth / 2 + 0.004f, 0, height / 2}, {0.008f, width, height}, side);
+  const float spacing = (height - 0.06f) / float(boards);
+  shelf.gap = spacing - kThick;
   for (int i = 0; i < boards; ++i) {
-    const float z = 0.06f + float(i) * (height - 0.06f) / float(boards);
+    const float z = 0.06f + float(i) * spacing;
     add_box(shelf.mesh, {0.004f, 0, z}, {shelf.depth - 0.01f, width - 2 * kThick, kThick}, side,
             {0.3f * float(i), 0.2f * float(i)});
     shelf.boards.push_back(z + kThick / 2);
@@ -33,7 +35,7 @@ Shelf make_shelf(Layout& layout, float width, float height, int boards) {
 void add_books(Layout& layout, const SE3& T_wo, const Shelf& shelf, float height, int plane) {
   float at = -shelf.width / 2 + 0.03f;
   const float stop = shelf.width / 2 - 0.05f - layout.uniform(0, 0.4f) * shelf.width;
-  while (at < stop) {
+  for (int draw = 0; draw < 200 && at < stop; ++draw) {
     Model book = make_model("book", layout.seed());
     // A book lies with its head at -x and its back at -y; now it stands, its back to the front.
     Eigen::Matrix3d R;  // columns: where the book's x, y, z go
@@ -44,8 +46,11 @@ void add_books(Layout& layout, const SE3& T_wo, const Shelf& shelf, float height
     }
     const auto thick = float(turned.sizes().y());
     if (at + thick > stop) break;
-    if (turned.sizes().z() > 0.29) continue;
-    const double front = double(shelf.depth) / 2 - double(layout.uniform(0.015f, 0.05f));
+    const double deepest = double(shelf.depth) - 0.01;
+    if (turned.sizes().z() > double(shelf.gap) - 0.005 || turned.sizes().x() > deepest) continue;
+    const double room_behind = deepest - turned.sizes().x();
+    const double front =
+        double(shelf.depth) / 2 - std::min(double(layout.uniform(0.015f, 0.05f)), room_behind);
     const Eigen::Vector3d to(front - turned.max().x(), double(at) - turned.min().y(),
                              double(height) - turned.min().z());
     layout.add_object(std::move(book), T_wo * SE3(R, to), plane);

@@ -12,14 +12,12 @@ constexpr float kSkirting = 0.08f;
 
 }  // namespace
 
-int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model model) {
-  const Eigen::AlignedBox3f box = extent(model);
-  const SE3 T = room.wall(wall);
-  const Eigen::Vector3d at = T * Eigen::Vector3d(double(x), 0, 0.03 - double(box.min().x()));
+SE3 Room::at_wall(int wall, float x, const Model& model) const {
+  const SE3 T = this->wall(wall);
+  const Eigen::Vector3d at =
+      T * Eigen::Vector3d(double(x), 0, 0.03 - double(extent(model).min().x()));
   const Eigen::Vector3d front = T.rotation() * Eigen::Vector3d::UnitZ();
-  return layout.add_object(std::move(model),
-                           standing(at.cast<float>(), float(std::atan2(front.y(), front.x()))),
-                           room.floor_plane());
+  return standing(at.cast<float>(), float(std::atan2(front.y(), front.x())));
 }
 
 Model make_long_table(Layout& layout) {

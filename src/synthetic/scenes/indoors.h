@@ -15,6 +15,8 @@ class Room {
   const Eigen::Vector3f& size() const { return size_; }
   int floor_plane() const { return floor_; }
   SE3 wall(int index) const;
+  /// Where a model stands with its back at a wall, `x` along it.
+  SE3 at_wall(int wall, float x, const Model& model) const;
   float wall_width(int index) const { return index % 2 == 0 ? size_.y() : size_.x(); }
 
   /// A window that daylight comes through. `x`, `y`: its middle, in the wall's frame.
@@ -31,8 +33,6 @@ class Room {
   int floor_ = 0;
 };
 
-/// Stands a model with its back at a wall, `x` along it; returns its index.
-int stand_at_wall(Layout& layout, const Room& room, int wall, float x, Model model);
 /// A table whose top is a rectangle: on a round one things would be laid beside it.
 Model make_long_table(Layout& layout);
 /// Lays things of these classes onto a rectangular plane, as many as find room; their fronts
@@ -51,6 +51,7 @@ struct Shelf {
   Mesh mesh;
   std::vector<float> boards;  ///< heights of the boards' upper sides
   float width = 0, depth = 0;
+  float gap = 0;  ///< between a board and the next
 };
 /// Model frame: front towards +x, footprint's middle at the origin.
 Shelf make_shelf(Layout& layout, float width, float height, int boards);

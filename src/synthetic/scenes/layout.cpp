@@ -103,9 +103,20 @@ int Layout::add_top(int thing, const std::string& label) {
   return plane;
 }
 
-Eigen::AlignedBox3f extent(const Model& model) {
+bool Layout::is_free(const Model& model, const SE3& T_wo) const {
+  const Eigen::AlignedBox3f wanted = extent(model, T_wo);
+  return std::none_of(scene_.things.begin(), scene_.things.end(), [&](const WorldThing& thing) {
+    return thing.supported_by && extent(thing.model, thing.T_wo).intersects(wanted);
+  });
+}
+
+Eigen::AlignedBox3f extent(const Model& model) { return extent(model, SE3()); }
+
+Eigen::AlignedBox3f extent(const Model& model, const SE3& T_wo) {
   Eigen::AlignedBox3f box;
-  for (const auto& vertex : model.mesh.vertices) box.extend(vertex.position);
+  for (const auto& vertex : model.mesh.vertices) {
+    box.extend((T_wo * vertex.position.cast<double>()).cast<float>());
+  }
   return box;
 }
 

@@ -35,6 +35,9 @@ class Layout {
   /// The flat top of something that was added, as a plane to put things on. Returns its index.
   int add_top(int thing, const std::string& label);
 
+  /// Would the model stand clear of all that stands already? Boxes along x and y decide.
+  bool is_free(const Model& model, const SE3& T_wo) const;
+
   const WorldThing& thing(int index) const { return scene_.things[std::size_t(index)]; }
   const WorldPlane& plane(int index) const { return scene_.planes[std::size_t(index)]; }
   Scene& scene() { return scene_; }
@@ -47,6 +50,9 @@ class Layout {
 
 /// The extent of a model in its own frame.
 Eigen::AlignedBox3f extent(const Model& model);
+
+/// The extent of a model that is placed, along the axes of the world.
+Eigen::AlignedBox3f extent(const Model& model, const SE3& T_wo);
 
 /// Upright at a place, turned about the vertical axis.
 SE3 standing(const Eigen::Vector3f& at, float yaw);

@@ -20,7 +20,9 @@ void fill_wall(Layout& layout, const Room& room, int wall, float from, float to,
     const Eigen::AlignedBox3f box = extent(model);
     const float wide = box.sizes().y();
     if (box.sizes().x() > 1.1f || at + wide > to) continue;
-    const int thing = stand_at_wall(layout, room, wall, at + wide / 2, std::move(model));
+    const SE3 T_wo = room.at_wall(wall, at + wide / 2, model);
+    if (!layout.is_free(model, T_wo)) continue;
+    const int thing = layout.add_object(std::move(model), T_wo, room.floor_plane());
     at += wide + layout.uniform(0.08f, 0.3f);
     if (name != "cabinet") continue;
     const Eigen::Vector3d front = layout.thing(thing).T_wo.rotation() * Eigen::Vector3d::UnitX();
@@ -42,16 +44,17 @@ void set_middle(Layout& layout, const Room& room) {
               "bottle", "banana", "orange", "apple"});
   for (const float side : {-1.f, 1.f}) {
     for (int axis = 0; axis < 2; ++axis) {
-      const float away = half[axis] + layout.uniform(0.12f, 0.3f);
-      Vector3f at = Vector3f::Zero();
-      at[axis] = side * away;
-      at[1 - axis] = layout.uniform(-0.1f, 0.1f);
-      const Eigen::AngleAxisf turn(yaw, Vector3f::UnitZ());
-      const float facing = std::atan2(-at.y(), -at.x()) + yaw + layout.uniform(-0.3f, 0.3f);
       Model chair = make_model("chair", layout.seed());
       for (int i = 0; i < 20 && extent(chair).max().z() > 0.95f; ++i) {
         chair = make_model("chair", layout.seed());
       }
+      Vector3f at = Vector3f::Zero();
+      const float askew = layout.uniform(-0.3f, 0.3f);
+      const Vector3f front = extent(chair, standing(Vector3f::Zero(), askew)).max();
+      at[axis] = side * (half[axis] + front.x() + layout.uniform(0.02f, 0.15f));
+      at[1 - axis] = layout.uniform(-0.1f, 0.1f);
+      const Eigen::AngleAxisf turn(yaw, Vector3f::UnitZ());
+      const float facing = std::atan2(-at.y(), -at.x()) + yaw + askew;
       layout.add_object(std::move(chair), standing(turn * at, facing), room.floor_plane());
     }
   }
@@ -91,8 +94,8 @@ Scene make_room(std::uint64_t seed) {
     if (wall != 3) room.add_poster(wall, layout.uniform(0.4f, 1) * reach, 1.75f, 0.9f);
     room.add_poster(wall, -layout.uniform(0.5f, 1) * reach, 1.75f, layout.uniform(0.7f, 1));
   }
-  room.add_window(1, 0.1f, 1.7f, 1.5f, 1.1f, layout.uniform(0.8f, 1.2f) * Colour(6, 6.6f, 7.4f));
-  room.add_window(2, 0.4f, 1.75f, 1.2f, 1.0f, layout.uniform(0.8f, 1.2f) * Colour(5, 5.6f, 6.4f));
+  room.add_window(1, 0.1f, 1.9f, 1.5f, 0.9f, layout.uniform(0.8f, 1.2f) * Colour(6, 6.6f, 7.4f));
+  room.add_window(2, 0.4f, 1.9f, 1.2f, 0.9f, layout.uniform(0.8f, 1.2f) * Colour(5, 5.6f, 6.4f));
   room.add_ceiling_lamp({0, 0}, {1.2f, 1.2f}, layout.uniform(0.8f, 1.2f) * Colour(5, 4.5f, 3.8f));
   Scene& scene = layout.scene();
   scene.ambient = Colour(0.04f, 0.039f, 0.037f);
