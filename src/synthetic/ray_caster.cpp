@@ -1,6 +1,7 @@
 #include "cairn/synthetic/ray_caster.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include <limits>
 #include <vector>
@@ -64,9 +65,14 @@ struct RayCaster::Impl {
   std::vector<RTCScene> single;
 
   explicit Impl(std::span<const Mesh> meshes) {
+    device = rtcNewDevice(nullptr);
     // One thread builds: the tree, and with it the order of ties, must not depend on how many there
-    // are. It still takes well under a second.
-    device = rtcNewDevice("threads=1");
+    // are. It still takes well under a second. (A device with "threads=1" would keep all of TBB in
+    // this process to one thread.)
+    tbb::task_arena(1).execute([&] { build(meshes); });
+  }
+
+  void build(std::span<const Mesh> meshes) {
     all = rtcNewScene(device);
     rtcSetSceneFlags(all, RTC_SCENE_FLAG_ROBUST);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
