@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "bench_landmarks.h"
 #include "bench_memory.h"
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
@@ -24,6 +25,7 @@ constexpr int kWidePicture = 1000;  // pixels; wider ones get twice the features
 struct Arguments {
   std::string subject;
   std::vector<std::string> data;
+  std::string groundtruth;
   int seeds = 1;
   bool json = false;
 };
@@ -154,7 +156,6 @@ void print_table(const std::vector<Times>& rows) {
 }
 
 int bench_tracking(const Arguments& arguments) {
-  remember_interrupts();
   const auto data = arguments.data.empty() ? std::vector<std::string>{""} : arguments.data;
   std::vector<Times> rows;
   for (const auto& sequence : data) {
@@ -178,27 +179,37 @@ int bench_tracking(const Arguments& arguments) {
 
 Action add_bench(CLI::App& program) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      program.add_subcommand("bench", "Prints repeatable tables of speed and memory");
+  CLI::App* command = program.add_subcommand(
+      "bench", "Prints repeatable tables of speed, memory and sets of landmarks");
   command->add_option("subject", arguments->subject, "what to measure")
       ->required()
-      ->check(CLI::IsMember({"tracking", "memory"}));
+      ->check(CLI::IsMember({"tracking", "memory", "landmarks"}));
   command
       ->add_option("--data", arguments->data, "a sequence, repeatable; default: the synthetic desk")
       ->type_name("PATH")
       ->expected(1)
       ->take_all();
+  command
+      ->add_option("--groundtruth", arguments->groundtruth,
+                   "of landmarks: true poses in place of those of the sequence")
+      ->type_name("FILE");
   command->add_option("--seeds", arguments->seeds, "runs a sequence, each with another seed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "one JSON object in place of the table");
   return [arguments] {
-    if (arguments->subject == "tracking") return bench_tracking(*arguments);
-    if (arguments->data.empty()) {
+    const auto& [subject, data, groundtruth, seeds, json] = *arguments;
+    remember_interrupts();
+    if (!groundtruth.empty() && (subject != "landmarks" || data.size() != 1)) {
+      throw Error(Error::Kind::kUsage,
+                  "--groundtruth: is for `bench landmarks` of one sequence, --data PATH");
+    }
+    if (subject == "tracking") return bench_tracking(*arguments);
+    if (subject == "landmarks") return bench_landmarks(data, groundtruth, seeds, json);
+    if (data.empty()) {
       throw Error(Error::Kind::kUsage, "bench memory: which sequence? Give --data PATH");
     }
-    remember_interrupts();
-    return bench_memory(arguments->data, arguments->seeds, arguments->json);
+    return bench_memory(data, seeds, json);
   };
 }
 

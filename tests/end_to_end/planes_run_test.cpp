@@ -66,6 +66,21 @@ TEST_F(PlanesRun, PutsTheTableIntoTheMapAndTheMapIntoMetres) {
   }
 }
 
+TEST_F(PlanesRun, SetsOfLandmarksAreComparedInATable) {
+  const Ran ran = run_cairn("bench landmarks --json --data " + sequence());
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const nlohmann::json rows = nlohmann::json::parse(ran.output).at("rows");
+  ASSERT_EQ(rows.size(), 3U);
+  for (const nlohmann::json& row : rows) {
+    EXPECT_EQ(row.at("ate").size(), 1U);
+    EXPECT_EQ(row.at("ate").at(0), row.at("ate_median"));
+    EXPECT_LT(row.at("ate_median").get<double>(), 0.01);
+    EXPECT_GT(row.at("coverage").get<double>(), 0.9);
+    EXPECT_EQ(row.at("scale_error").is_null(), row.at("set") == "points");
+  }
+  EXPECT_EQ(run_cairn("bench tracking --groundtruth " + sequence()).exit_code, 2);
+}
+
 TEST_F(PlanesRun, SaysWhatIsMissing) {
   std::filesystem::remove(sequence() + "/perception.jsonl");
   EXPECT_THAT(run("a", "--landmarks pp --planes recorded").output, HasSubstr("perception.jsonl"));

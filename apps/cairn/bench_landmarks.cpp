@@ -1,0 +1,251 @@
+#include "bench_landmarks.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cairn/datasets/groundtruth.h"
+#include "cairn/datasets/sequence.h"
+#include "cairn/evaluation/evaluation.h"
+#include "cairn/geometry/error.h"
+#include "cairn/geometry/median.h"
+#include "cairn/perception/plane_detectors.h"
+#include "cairn/synthetic/perception_simulator.h"
+#include "cairn/synthetic/world.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "playback.h"
+#include "progress.h"
+
+namespace cairn::app {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Set {
+  const char* name;
+  Landmarks landmarks;
+};
+constexpr Set kSets[] = {
+    {"points", Landmarks::kPoints}, {"pp", Landmarks::kPp}, {"ppm", Landmarks::kPpm}};
+
+// One set on one sequence: a figure a seed.
+struct Row {
+  std::string sequence, set;
+  std::vector<double> ate, coverage, scale_error;  // NaN where there is none
+};
+
+// Of those that there are; NaN without any.
+double median_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  return values.empty() ? kNone : median(values);
+}
+
+double worst_of(const std::vector<double>& values) {
+  double worst = kNone;
+  for (const double value : values) worst = std::fmax(worst, value);
+  return worst;
+}
+
+// A world as it is filmed; nothing is stored.
+class WorldFrames : public FrameSource {
+ public:
+  WorldFrames(const World& world, const Camera& camera, SceneKind kind)
+      : world_(world), camera_(camera), options_(default_options(kind)) {}
+  bool next(SourceFrame& frame) override {
+    if (index_ == *size()) return false;
+    const double t = double(index_++) / world_.scene().fps;
+    frame = {t, world_.render(camera_, t, options_), std::to_string(index_), ""};
+    return true;
+  }
+  std::optional<std::size_t> size() const override {
+    return std::size_t(std::lround(world_.scene().duration * world_.scene().fps));
+  }
+  Trajectory truth() const {
+    Trajectory truth;
+    for (std::size_t i = 0; i < *size(); ++i) {
+      const double t = double(i) / world_.scene().fps;
+      truth.push_back({t, world_.scene().path(t)});
+    }
+    return truth;
+  }
+
+ private:
+  const World& world_;
+  const Camera& camera_;
+  RenderOptions options_;
+  std::size_t index_ = 0;
+};
+
+// What networks would say of the world's pictures.
+class SimulatedPlanes : public PlaneDetector {
+ public:
+  SimulatedPlanes(const World& world, const Camera& camera, std::uint64_t seed)
+      : world_(world),
+        camera_(camera),
+        simulator_(world.scene(), camera, PerceptionNoise(), seed) {}
+  DetectedFrame detect(const PerceptionInput& input) override {
+    const double t = input.timestamp;
+    return simulator_.detect(world_.truth(camera_, world_.scene().path(t)), t);
+  }
+
+ private:
+  const World& world_;
+  const Camera& camera_;
+  PerceptionSimulator simulator_;
+};
+
+void add_figures(const SlamResult& result, const Trajectory& truth,
+                 const std::vector<double>& times, Row& row) {
+  row.ate.push_back(kNone), row.coverage.push_back(0), row.scale_error.push_back(kNone);
+  try {
+    const EvaluationReport report = evaluate(truth, result.trajectory, {}, times);
+    row.ate.back() = report.ate.rmse;
+    row.coverage.back() = report.coverage;
+    if (result.scale.how != "none") row.scale_error.back() = report.scale_error.value_or(kNone);
+  } catch (const Error&) {  // too little was tracked to compare
+  }
+}
+
+// All sets see the same frames, one after the other, so that these are made once.
+template <class MakeDetector>
+void run_sets(FrameSource& frames, const Camera& camera, const Trajectory& truth,
+              std::uint64_t seed, MakeDetector&& detector, Progress& progress,
+              std::span<Row> rows) {
+  std::vector<std::unique_ptr<Slam>> systems;
+  for (const Set& set : kSets) {
+    Options options;
+    options.pace = Pace::kLockstep;
+    options.seed = seed;
+    options.landmarks = set.landmarks;
+    systems.push_back(std::make_unique<Slam>(
+        camera, options, set.landmarks == Landmarks::kPoints ? nullptr : detector()));
+  }
+  std::vector<double> times;
+  SourceFrame frame;
+  while (!interrupted() && frames.next(frame)) {
+    times.push_back(frame.timestamp);
+    for (const auto& slam : systems) {
+      if (frame.problem.empty()) {
+        slam->process(frame.image, frame.timestamp);
+      } else {
+        slam->skip(frame.timestamp);
+      }
+    }
+    progress.show(rows[0].sequence + ", seed " + std::to_string(seed));
+  }
+  if (interrupted()) return;  // half a run is no figure
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    add_figures(systems[i]->finish(), truth, times, rows[i]);
+  }
+}
+
+std::vector<Row> new_rows(const std::string& sequence) {
+  std::vector<Row> rows;
+  for (const Set& set : kSets) rows.push_back({sequence, set.name, {}, {}, {}});
+  return rows;
+}
+
+std::vector<Row> bench_world(SceneKind kind, const std::string& scene, int seeds, bool quiet) {
+  std::vector<Row> rows = new_rows("synthetic " + scene);
+  const Camera camera = default_camera(kind, 640, 480, true);
+  for (int i = 0; i < seeds && !interrupted(); ++i) {
+    const auto seed = std::uint64_t(i);
+    const World world(make_scene(kind, seed));
+    WorldFrames frames(world, camera, kind);
+    Progress progress(!quiet, frames.size());
+    run_sets(
+        frames, camera, frames.truth(), seed,
+        [&] { return std::make_unique<SimulatedPlanes>(world, camera, seed); }, progress, rows);
+  }
+  return rows;
+}
+
+std::vector<Row> bench_data(const std::string& data, const std::string& groundtruth, int seeds,
+                            bool quiet) {
+  std::vector<Row> rows = new_rows(data);
+  const auto recorded = std::filesystem::path(data) / "perception.jsonl";
+  for (int seed = 0; seed < seeds && !interrupted(); ++seed) {
+    const Sequence sequence = open_sequence(data);
+    const Camera& camera = camera_of(sequence, data);
+    if (groundtruth.empty() && !sequence.groundtruth) {
+      throw Error(Error::Kind::kUsage, data + ": has no ground truth; give --groundtruth FILE");
+    }
+    const Trajectory truth =
+        read_groundtruth(groundtruth.empty() ? sequence.groundtruth->string() : groundtruth);
+    PlaneDetectorSources sources;
+    sources.recorded = recorded;
+    Progress progress(!quiet, sequence.frames->size());
+    run_sets(
+        *sequence.frames, camera, truth, std::uint64_t(seed),
+        [&] {
+          return make_plane_detector(std::filesystem::exists(recorded) ? "recorded" : "network",
+                                     camera, sources);
+        },
+        progress, rows);
+  }
+  return rows;
+}
+
+nlohmann::json number(double value) {
+  return std::isnan(value) ? nlohmann::json() : nlohmann::json(value);
+}
+
+nlohmann::json to_json(const Row& row) {
+  nlohmann::json ate = nlohmann::json::array();
+  for (const double value : row.ate) ate.push_back(number(value));
+  return {{"sequence", row.sequence},
+          {"set", row.set},
+          {"ate", ate},
+          {"ate_median", number(median_of(row.ate))},
+          {"coverage", number(median_of(row.coverage))},
+          {"scale_error", number(median_of(row.scale_error))}};
+}
+
+void print_table(const std::vector<Row>& rows) {
+  std::printf(
+      "ATE in metres after Sim3, median [worst] of the seeds; coverage and error of scale: "
+      "median\n\n");
+  std::printf("%-24s %-8s %18s %10s %12s\n", "sequence", "set", "ATE", "coverage", "scale error");
+  for (const Row& row : rows) {
+    char ate[40], scale[20] = "-";
+    std::snprintf(ate, sizeof ate, "%.4f [%.4f]", median_of(row.ate), worst_of(row.ate));
+    const double error = median_of(row.scale_error);
+    if (!std::isnan(error)) std::snprintf(scale, sizeof scale, "%.1f %%", 100 * error);
+    std::string name = row.sequence;
+    if (name.size() > 24) name = "..." + name.substr(name.size() - 21);
+    std::printf("%-24s %-8s %18s %8.1f %% %12s\n", name.c_str(), row.set.c_str(), ate,
+                100 * median_of(row.coverage), scale);
+  }
+}
+
+}  // namespace
+
+int bench_landmarks(const std::vector<std::string>& data, const std::string& groundtruth, int seeds,
+                    bool json) {
+  std::vector<Row> rows;
+  const auto add = [&](std::vector<Row> more) {
+    rows.insert(rows.end(), std::make_move_iterator(more.begin()),
+                std::make_move_iterator(more.end()));
+  };
+  if (data.empty()) {
+    for (const char* scene : {"desk", "room", "corridor"}) {
+      add(bench_world(parse_scene_kind(scene), scene, seeds, json));
+    }
+  }
+  for (const std::string& sequence : data) add(bench_data(sequence, groundtruth, seeds, json));
+  std::erase_if(rows, [](const Row& row) { return row.ate.empty(); });  // interrupted before
+  if (json) {
+    nlohmann::json object{{"subject", "landmarks"}, {"rows", nlohmann::json::array()}};
+    for (const Row& row : rows) object["rows"].push_back(to_json(row));
+    std::printf("%s\n", object.dump(2).c_str());
+  } else {
+    print_table(rows);
+  }
+  return interrupted() ? kInterrupted : kDone;
+}
+
+}  // namespace cairn::app
