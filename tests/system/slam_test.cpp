@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <thread>
 
 #include "quick_scene/quick_scene.h"
 
@@ -24,6 +27,49 @@ const std::vector<cv::Mat>& pictures() {
   }();
   return pictures;
 }
+
+// Knows the scene: its depth and its floor, and who asked.
+class KnowingDetector : public PlaneDetector {
+ public:
+  struct Record {
+    std::mutex mutex;
+    std::set<std::thread::id> threads;
+  };
+  explicit KnowingDetector(Record& record) : record_(record) {}
+
+  DetectedFrame detect(const PerceptionInput& input) override {
+    const std::lock_guard lock(record_.mutex);
+    record_.threads.insert(std::this_thread::get_id());
+    const SE3 T_wc = scene().T_wc(input.timestamp);
+    DetectedFrame frame;
+    frame.timestamp = input.timestamp;
+    frame.depth = cv::Mat::zeros(48, 64, CV_32F);
+    cv::Mat floor = cv::Mat::zeros(48, 64, CV_8U);
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const Eigen::Vector3d ray =
+            scene().camera().unproject({10 * (x + 0.5) - 0.5, 10 * (y + 0.5) - 0.5});
+        const auto along = scene().cast(T_wc.translation(), T_wc.rotation() * ray);
+        if (!along) continue;
+        frame.depth.at<float>(y, x) = float(*along * ray.z());
+        const double height = (T_wc * Eigen::Vector3d(*along * ray)).z();
+        floor.at<unsigned char>(y, x) = height < 1e-6 ? 255 : 0;
+      }
+    }
+    DetectedPlane plane;
+    plane.plane.head<3>() = T_wc.rotation().conjugate() * Eigen::Vector3d::UnitZ();
+    plane.plane[3] = T_wc.translation().z();
+    plane.label = "floor";
+    plane.score = 1;
+    plane.sigma_angle = plane.sigma_depth = 0.02;
+    cv::resize(floor, plane.mask, {640, 480}, 0, 0, cv::INTER_NEAREST);
+    if (cv::countNonZero(plane.mask) > 5000) frame.planes.push_back(plane);
+    return frame;
+  }
+
+ private:
+  Record& record_;
+};
 
 struct Played {
   SlamResult result;
@@ -82,6 +128,34 @@ TEST(Slam, InRealtimeItMakesAMapOfTheSameFrames) {
   EXPECT_GT(realtime.result.trajectory.size(), kFrames / 2u) << realtime.result.refusal;
   EXPECT_GE(realtime.result.keyframes.size(), 2u);
   EXPECT_GT(realtime.result.points.size(), 100u);
+}
+
+TEST(Slam, InRealtimePicturesAreLookedAtOnAThreadOfTheirOwn) {
+  KnowingDetector::Record record;
+  Options options;
+  options.pace = Pace::kRealtime;
+  Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
+  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  const SlamResult result = slam.finish();
+  EXPECT_GT(result.trajectory.size(), kFrames / 2u) << result.refusal;
+  ASSERT_EQ(record.threads.size(), 1u);
+  EXPECT_NE(*record.threads.begin(), std::this_thread::get_id());
+}
+
+TEST(Slam, InLockstepADetectorThatKnowsGivesTheFloorAndMetres) {
+  KnowingDetector::Record record;
+  Slam slam(scene().camera(), lockstep(0), std::make_unique<KnowingDetector>(record));
+  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  const SlamResult result = slam.finish();
+  EXPECT_EQ(record.threads, std::set{std::this_thread::get_id()});
+  ASSERT_EQ(result.scale.how, "measured depth");
+  ASSERT_EQ(result.planes.size(), 1u);
+  EXPECT_EQ(result.planes[0].label, "floor");
+  const auto& keyframes = result.keyframes;
+  const SE3 T_w0 = scene().T_wc(keyframes.front().timestamp);
+  const Eigen::Vector3d up = T_w0.rotation().conjugate() * Eigen::Vector3d::UnitZ();
+  EXPECT_GT(std::abs(up.dot(result.planes[0].normal)), std::cos(1.5 * M_PI / 180));
+  EXPECT_NEAR(std::abs(result.planes[0].d), T_w0.translation().z(), 0.05);
 }
 
 TEST(Slam, TheWorldIsTheFirstKeyframe) {
