@@ -10,16 +10,17 @@
 #include "bench_memory.h"
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
+#include "cairn/geometry/median.h"
 #include "cairn/output/summary.h"
-#include "cairn/synthetic/world.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "playback.h"
+#include "table_name.h"
+#include "world_frames.h"
 
 namespace cairn::app {
 namespace {
 
-constexpr int kDeskFrames = 300;
 constexpr int kWidePicture = 1000;  // pixels; wider ones get twice the features
 
 struct Arguments {
@@ -29,33 +30,6 @@ struct Arguments {
   int seeds = 1;
   bool json = false;
 };
-
-// The synthetic desk; one ray a pixel is enough to track on.
-class DeskFrames : public FrameSource {
- public:
-  bool next(SourceFrame& frame) override {
-    if (index_ == kDeskFrames) return false;
-    const double t = index_++ / world_.scene().fps;
-    RenderOptions options;
-    options.samples = 1;
-    frame = {t, world_.render(camera_, t, options), std::to_string(index_), ""};
-    return true;
-  }
-  std::optional<std::size_t> size() const override { return kDeskFrames; }
-  const Camera& camera() const { return camera_; }
-
- private:
-  World world_{make_scene(SceneKind::kDesk, 0)};
-  Camera camera_ = default_camera(SceneKind::kDesk, 640, 480, true);
-  int index_ = 0;
-};
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Times of the tracked frames of one sequence.
 struct Times {
@@ -70,7 +44,11 @@ struct Times {
     const auto found = stages.find(name);
     return found == stages.end() ? StageTime{} : found->second;
   }
-  double ratio() const { return orb_ms.empty() ? 0 : stage("total").median_ms / median(orb_ms); }
+  double orb_median() const {
+    std::vector<double> times = orb_ms;
+    return times.empty() ? 0 : median(times);
+  }
+  double ratio() const { return orb_ms.empty() ? 0 : stage("total").median_ms / orb_median(); }
 };
 
 // OpenCV's own ORB on the same picture, on one thread, as the yardstick of this machine.
@@ -107,8 +85,12 @@ Times time_sequence(const std::string& data, int seeds) {
   times.sequence = data.empty() ? "synthetic desk" : data;
   for (int seed = 0; seed < seeds && !interrupted(); ++seed) {
     if (data.empty()) {
-      DeskFrames frames;
-      time_tracking(frames, frames.camera(), std::uint64_t(seed), times);
+      const World world(make_scene(SceneKind::kDesk, 0));
+      const Camera camera = default_camera(SceneKind::kDesk, 640, 480, true);
+      RenderOptions options;
+      options.samples = 1;  // one ray a pixel is enough to track on
+      WorldFrames frames(world, camera, options);
+      time_tracking(frames, camera, std::uint64_t(seed), times);
     } else {
       const Sequence sequence = open_sequence(data);
       time_tracking(*sequence.frames, camera_of(sequence, data), std::uint64_t(seed), times);
@@ -128,7 +110,7 @@ nlohmann::json to_json(const Times& times) {
           {"tracked", times.tracked.size()},
           {"tracking_median_ms", times.stage("total").median_ms},
           {"tracking_p95_ms", times.stage("total").p95_ms},
-          {"orb_median_ms", median(times.orb_ms)},
+          {"orb_median_ms", times.orb_median()},
           {"ratio", times.ratio()},
           {"stages", stages}};
 }
@@ -147,11 +129,9 @@ void print_table(const std::vector<Times>& rows) {
       return std::string(text);
     };
     const std::string tracked = std::to_string(t.tracked.size()) + "/" + std::to_string(t.frames);
-    std::string name = t.sequence;
-    if (name.size() > 24) name = "..." + name.substr(name.size() - 21);
-    std::printf("%-24s %9s  %13s  %13s  %13s  %13s  %8.2f  %5.2f\n", name.c_str(), tracked.c_str(),
-                cell("extract").c_str(), cell("predict").c_str(), cell("local_map").c_str(),
-                cell("total").c_str(), median(t.orb_ms), t.ratio());
+    std::printf("%-24s %9s  %13s  %13s  %13s  %13s  %8.2f  %5.2f\n", table_name(t.sequence).c_str(),
+                tracked.c_str(), cell("extract").c_str(), cell("predict").c_str(),
+                cell("local_map").c_str(), cell("total").c_str(), t.orb_median(), t.ratio());
   }
 }
 

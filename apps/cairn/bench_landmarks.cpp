@@ -14,11 +14,12 @@
 #include "cairn/geometry/median.h"
 #include "cairn/perception/plane_detectors.h"
 #include "cairn/synthetic/perception_simulator.h"
-#include "cairn/synthetic/world.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "playback.h"
 #include "progress.h"
+#include "table_name.h"
+#include "world_frames.h"
 
 namespace cairn::app {
 namespace {
@@ -50,35 +51,14 @@ double worst_of(const std::vector<double>& values) {
   return worst;
 }
 
-// A world as it is filmed; nothing is stored.
-class WorldFrames : public FrameSource {
- public:
-  WorldFrames(const World& world, const Camera& camera, SceneKind kind)
-      : world_(world), camera_(camera), options_(default_options(kind)) {}
-  bool next(SourceFrame& frame) override {
-    if (index_ == *size()) return false;
-    const double t = double(index_++) / world_.scene().fps;
-    frame = {t, world_.render(camera_, t, options_), std::to_string(index_), ""};
-    return true;
+Trajectory truth_of(const World& world, std::size_t frames) {
+  Trajectory truth;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const double t = double(i) / world.scene().fps;
+    truth.push_back({t, world.scene().path(t)});
   }
-  std::optional<std::size_t> size() const override {
-    return std::size_t(std::lround(world_.scene().duration * world_.scene().fps));
-  }
-  Trajectory truth() const {
-    Trajectory truth;
-    for (std::size_t i = 0; i < *size(); ++i) {
-      const double t = double(i) / world_.scene().fps;
-      truth.push_back({t, world_.scene().path(t)});
-    }
-    return truth;
-  }
-
- private:
-  const World& world_;
-  const Camera& camera_;
-  RenderOptions options_;
-  std::size_t index_ = 0;
-};
+  return truth;
+}
 
 // What networks would say of the world's pictures.
 class SimulatedPlanes : public PlaneDetector {
@@ -155,10 +135,10 @@ std::vector<Row> bench_world(SceneKind kind, const std::string& scene, int seeds
   for (int i = 0; i < seeds && !interrupted(); ++i) {
     const auto seed = std::uint64_t(i);
     const World world(make_scene(kind, seed));
-    WorldFrames frames(world, camera, kind);
+    WorldFrames frames(world, camera, default_options(kind));
     Progress progress(!quiet, frames.size());
     run_sets(
-        frames, camera, frames.truth(), seed,
+        frames, camera, truth_of(world, *frames.size()), seed,
         [&] { return std::make_unique<SimulatedPlanes>(world, camera, seed); }, progress, rows);
   }
   return rows;
@@ -190,19 +170,13 @@ std::vector<Row> bench_data(const std::string& data, const std::string& groundtr
   return rows;
 }
 
-nlohmann::json number(double value) {
-  return std::isnan(value) ? nlohmann::json() : nlohmann::json(value);
-}
-
 nlohmann::json to_json(const Row& row) {
-  nlohmann::json ate = nlohmann::json::array();
-  for (const double value : row.ate) ate.push_back(number(value));
   return {{"sequence", row.sequence},
           {"set", row.set},
-          {"ate", ate},
-          {"ate_median", number(median_of(row.ate))},
-          {"coverage", number(median_of(row.coverage))},
-          {"scale_error", number(median_of(row.scale_error))}};
+          {"ate", row.ate},  // NaN is written as null
+          {"ate_median", median_of(row.ate)},
+          {"coverage", median_of(row.coverage)},
+          {"scale_error", median_of(row.scale_error)}};
 }
 
 void print_table(const std::vector<Row>& rows) {
@@ -215,10 +189,8 @@ void print_table(const std::vector<Row>& rows) {
     std::snprintf(ate, sizeof ate, "%.4f [%.4f]", median_of(row.ate), worst_of(row.ate));
     const double error = median_of(row.scale_error);
     if (!std::isnan(error)) std::snprintf(scale, sizeof scale, "%.1f %%", 100 * error);
-    std::string name = row.sequence;
-    if (name.size() > 24) name = "..." + name.substr(name.size() - 21);
-    std::printf("%-24s %-8s %18s %8.1f %% %12s\n", name.c_str(), row.set.c_str(), ate,
-                100 * median_of(row.coverage), scale);
+    std::printf("%-24s %-8s %18s %8.1f %% %12s\n", table_name(row.sequence).c_str(),
+                row.set.c_str(), ate, 100 * median_of(row.coverage), scale);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "cairn/datasets/sequence.h"
 #include "interrupt.h"
 #include "playback.h"
+#include "table_name.h"
 
 namespace cairn::app {
 namespace {
@@ -102,11 +103,9 @@ int bench_memory(const std::vector<std::string>& data, int seeds, bool json) {
                       {"bytes_a_keyframe", m.bytes_a_keyframe()},
                       {"still_bytes_a_frame", m.still_bytes_a_frame}});
       if (json) continue;
-      std::string name = m.sequence;
-      if (name.size() > 24) name = "..." + name.substr(name.size() - 21);
-      std::printf("%-24s %5d %10zu %12.2f %12.2f %14.1f %20.3f\n", name.c_str(), seed, m.keyframes,
-                  m.start_bytes / 1e6, m.end_bytes / 1e6, m.bytes_a_keyframe() / 1e3,
-                  m.still_bytes_a_frame / 1e3);
+      std::printf("%-24s %5d %10zu %12.2f %12.2f %14.1f %20.3f\n", table_name(m.sequence).c_str(),
+                  seed, m.keyframes, m.start_bytes / 1e6, m.end_bytes / 1e6,
+                  m.bytes_a_keyframe() / 1e3, m.still_bytes_a_frame / 1e3);
       std::fflush(stdout);
     }
   }

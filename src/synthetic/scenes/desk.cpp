@@ -110,18 +110,14 @@ void furnish(Layout& layout, Room& room, const Table& table) {
   const SE3 T_wo = room.at_wall(0, layout.uniform(0.5f, 0.9f), model);
   const int cabinet = layout.add_object(std::move(model), T_wo, room.floor_plane());
   lay_things(layout, layout.add_top(cabinet, "cabinet"), {"potted plant", "vase", "bowl", "clock"});
-  // A chair that is lower than the camera, pushed under the table.
-  Model chair = make_model("chair", layout.seed());
-  for (int i = 0; i < 20 && extent(chair).max().z() > 0.95f; ++i) {
-    chair = make_model("chair", layout.seed());
-  }
+  Model chair = make_low_chair(layout);
   const float aside = layout.uniform(-0.35f, 0.35f);
   const float facing = -kToViewer + layout.uniform(-0.5f, 0.5f);
   // What is as high as the table top stays in front of it.
+  const SE3 turned = standing(Vector3f::Zero(), facing);
   float nearest = std::numeric_limits<float>::infinity();
   for (const Mesh::Vertex& vertex : chair.mesh.vertices) {
     if (vertex.position.z() < table.centre.z() - 0.12f) continue;
-    const SE3 turned = standing(Vector3f::Zero(), facing);
     nearest = std::min(nearest, float((turned * vertex.position.cast<double>()).y()));
   }
   layout.add_object(

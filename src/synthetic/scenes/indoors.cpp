@@ -26,6 +26,14 @@ Model make_long_table(Layout& layout) {
   return table;
 }
 
+Model make_low_chair(Layout& layout) {
+  Model chair = make_model("chair", layout.seed());
+  for (int i = 0; i < 20 && extent(chair).max().z() > 0.95f; ++i) {
+    chair = make_model("chair", layout.seed());
+  }
+  return chair;
+}
+
 void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes,
                 std::optional<float> yaw) {
   const float low = yaw ? *yaw - 0.4f : 0, high = yaw ? *yaw + 0.4f : 2 * float(M_PI);

@@ -35,6 +35,8 @@ class Room {
 
 /// A table whose top is a rectangle: on a round one things would be laid beside it.
 Model make_long_table(Layout& layout);
+/// A chair that a camera in the hand looks over.
+Model make_low_chair(Layout& layout);
 /// Lays things of these classes onto a rectangular plane, as many as find room; their fronts
 /// towards `yaw` (radians from +x), or any way.
 void lay_things(Layout& layout, int plane, std::initializer_list<const char*> classes,

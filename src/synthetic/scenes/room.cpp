@@ -44,10 +44,7 @@ void set_middle(Layout& layout, const Room& room) {
               "bottle", "banana", "orange", "apple"});
   for (const float side : {-1.f, 1.f}) {
     for (int axis = 0; axis < 2; ++axis) {
-      Model chair = make_model("chair", layout.seed());
-      for (int i = 0; i < 20 && extent(chair).max().z() > 0.95f; ++i) {
-        chair = make_model("chair", layout.seed());
-      }
+      Model chair = make_low_chair(layout);
       Vector3f at = Vector3f::Zero();
       const float askew = layout.uniform(-0.3f, 0.3f);
       const Vector3f front = extent(chair, standing(Vector3f::Zero(), askew)).max();
