@@ -1,3 +1,4 @@
+#include <spdlog/cfg/env.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -47,6 +48,7 @@ int run_program(int argc, char** argv) {
   // Standard output belongs to results.
   spdlog::set_default_logger(spdlog::stderr_color_mt("cairn"));
   spdlog::set_level(spdlog::level::warn);
+  spdlog::cfg::load_env_levels();  // SPDLOG_LEVEL=debug says what happens inside
 
   CLI::App program("Turns the pictures of one moving camera into a trajectory and a map.", "cairn");
   const auto actions = add_commands(program, argc, argv);

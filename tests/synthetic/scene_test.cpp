@@ -6,6 +6,7 @@
 
 #include "cairn/geometry/error.h"
 #include "cairn/synthetic/ray_caster.h"
+#include "cairn/synthetic/surface_planes.h"
 #include "cairn/synthetic/tessellation.h"
 
 namespace cairn {
@@ -74,6 +75,29 @@ TEST_P(AnyScene, HasAFreeAndSmoothPathAndFlatPlanes) {
   expect_free_path(scene);
   expect_smooth_path(scene);
   expect_flat_planes(scene);
+}
+
+// Also a surface that nobody sees from its open side would be missing in the truth.
+TEST_P(AnyScene, ShowsASurfaceOnTheOpenSideOfEveryPlane) {
+  const auto [name, seed] = GetParam();
+  const Scene scene = make_scene(parse_scene_kind(name), std::uint64_t(seed));
+  const std::vector<Mesh> meshes = placed_meshes(scene);
+  const RayCaster caster(meshes);
+  const SurfacePlanes surfaces(scene, meshes);
+  for (std::size_t i = 0; i < scene.planes.size(); ++i) {
+    const WorldPlane& plane = scene.planes[i];
+    bool seen = false;
+    for (std::size_t k = 0; k + 2 < plane.outline.size() && !seen; ++k) {
+      for (const double share : {0.05, 0.2, 0.35, 0.5}) {  // of the way into a triangle of corners
+        const Vector3d X = plane.outline[0] + share * (plane.outline[k + 1] - plane.outline[0]) +
+                           share * (plane.outline[k + 2] - plane.outline[0]);
+        const Vector3d above = X + 2e-3 * plane.normal;
+        seen |= surfaces.plane_of(caster.cast(above.cast<float>(),
+                                              Vector3d(-plane.normal).cast<float>())) == int(i);
+      }
+    }
+    EXPECT_TRUE(seen) << "nothing lies on plane " << i << ", a " << plane.label;
+  }
 }
 
 // How often an outline runs around a point of its plane: 0 means outside.

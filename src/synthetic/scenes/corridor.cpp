@@ -69,10 +69,10 @@ void add_shell(Layout& layout, const Plan& plan) {
     add_box(board, {0, 0.05f, 0.006f}, {2 * half, 0.1f, 0.012f},
             board.add(plain(Colour::Constant(0.25f), 0.2f)));
     layout.add_surface("skirting", std::move(board), T);
-    layout.add_plane("wall", {{from.x(), from.y(), h},
-                              {from.x(), from.y(), 0},
-                              {to.x(), to.y(), 0},
-                              {to.x(), to.y(), h}});
+    layout.add_plane("wall", {{from.x(), from.y(), 0},
+                              {from.x(), from.y(), h},
+                              {to.x(), to.y(), h},
+                              {to.x(), to.y(), 0}});
   }
 }
 
