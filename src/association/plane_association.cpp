@@ -4,11 +4,26 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 namespace cairn {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kGate = 3;     // σ
+constexpr double kGap = 0.1;    // between outlines that touch, as a share of the viewing distance
+constexpr int kFewPoints = 10;  // fewer say little of a plane
+constexpr double kMostPoints = 0.7;     // of one plane on another, that make the two one
+constexpr double kLeastOffset = 0.015;  // share of the distance: surfaces are not flat
+
+// How far apart two views of one surface may be, from how sure both are.
+double angle_gate(double sigma_a, double sigma_b, const PlaneAssociationOptions& options) {
+  return std::min(kGate * std::hypot(sigma_a, sigma_b), options.max_angle_deg * kRadians);
+}
+double offset_gate(double sigma, double distance, const PlaneAssociationOptions& options) {
+  return distance * std::clamp(kGate * sigma / distance, std::min(kLeastOffset, options.max_offset),
+                               options.max_offset);
+}
 
 // How far a point, projected into the polygon's plane, is outside of a convex polygon whose corners
 // run counter-clockwise seen from where `normal` points; 0 inside.
@@ -35,13 +50,34 @@ bool touch(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vecto
   });
 }
 
+// 1 where the normals or the offsets are as far apart as is allowed.
+double disagreement(const SeenPlane& seen, const KnownPlane& known,
+                    const PlaneAssociationOptions& options) {
+  const double tilt = known.sigma_tilt * (seen.centroid - middle_of(known.outline)).norm();
+  const double sigma = std::hypot(seen.sigma_offset, tilt);
+  const double angle = angle_between(seen.plane, known.plane) /
+                       angle_gate(seen.sigma_angle, known.sigma_tilt, options);
+  const double offset = std::abs(known.plane.signed_distance(seen.centroid)) /
+                        offset_gate(sigma, seen.centroid.norm(), options);
+  return std::max(angle, offset);
+}
+
+// Where many points are shared, no σ is asked: they lie on both.
+bool nearly_agree(const SeenPlane& seen, const KnownPlane& known,
+                  const PlaneAssociationOptions& options) {
+  return angle_between(seen.plane, known.plane) <= options.max_angle_deg * kRadians &&
+         std::abs(known.plane.signed_distance(seen.centroid)) <=
+             options.max_offset * seen.centroid.norm();
+}
+
 class Candidates {
  public:
   Candidates(const Map& map, KeyframeId keyframe, const PlaneAssociationOptions& options)
       : map_(map), keyframe_(map.keyframes()[keyframe]), options_(options) {
     const SE3 T_kw = keyframe_.T_wc.inverse();
-    map.planes().for_each([&](PlaneId id, const PlaneLandmark&) {
-      Known known{id, map.plane_in_world(id).transformed(T_kw), map.outline_in_world(id)};
+    map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+      KnownPlane known{id, map.plane_in_world(id).transformed(T_kw), map.outline_in_world(id),
+                       landmark.sigma_tilt};
       for (Eigen::Vector3d& corner : known.outline) corner = T_kw * corner;
       known_.push_back(std::move(known));
     });
@@ -61,51 +97,38 @@ class Candidates {
     const int count = most == shared.end() ? 0 : most->second;
     if (count >= options_.th_high) {
       const auto known = std::find_if(known_.begin(), known_.end(),
-                                      [&](const Known& k) { return k.id == most->first; });
-      if (agrees(seen, known->plane)) return {PlaneDecision::Kind::kKnown, most->first};
+                                      [&](const KnownPlane& k) { return k.id == most->first; });
+      if (nearly_agree(seen, *known, options_)) return {PlaneDecision::Kind::kKnown, most->first};
     }
     // Few keypoints, or those of a surface in front of this one: where it lies decides.
-    const Known* nearest = nullptr;
-    double least = 1;
-    for (const Known& known : known_) {
-      const double off = disagreement(seen, known.plane);
-      const double margin = options_.max_offset * seen.centroid.norm();
-      if (off > least) continue;
-      const bool together = touch(seen.outline, known.outline, known.plane.normal(), margin) ||
-                            touch(known.outline, convex_outline(seen.plane, seen.outline),
-                                  seen.plane.normal(), margin);
-      if (!together) continue;
-      nearest = &known;
-      least = off;
-    }
+    const KnownPlane* nearest = nearest_surface(seen, known_, options_);
     if (nearest != nullptr) return {PlaneDecision::Kind::kKnown, nearest->id};
     return {count < options_.th_low ? PlaneDecision::Kind::kNew : PlaneDecision::Kind::kUnclear,
             {}};
   }
 
  private:
-  struct Known {
-    PlaneId id;
-    Plane plane;                           // in the keyframe's frame
-    std::vector<Eigen::Vector3d> outline;  // in the keyframe's frame
-  };
-
-  // 1 where the normals or the offsets are as far apart as is allowed.
-  double disagreement(const SeenPlane& seen, const Plane& plane) const {
-    const double angle = angle_between(seen.plane, plane) / (options_.max_angle_deg * kRadians);
-    const double offset = std::abs(plane.signed_distance(seen.centroid)) /
-                          (options_.max_offset * seen.centroid.norm());
-    return std::max(angle, offset);
-  }
-  bool agrees(const SeenPlane& seen, const Plane& plane) const {
-    return disagreement(seen, plane) <= 1;
-  }
-
   const Map& map_;
   const Keyframe& keyframe_;
   PlaneAssociationOptions options_;
-  std::vector<Known> known_;
+  std::vector<KnownPlane> known_;
 };
+
+// The share of a plane's measured points that lie on another plane; none where they are few.
+std::optional<double> share_of_points_on(const Map& map, PlaneId of, const Plane& plane,
+                                         const PlaneAssociationOptions& options) {
+  int points = 0, on = 0;
+  for (const PointId id : map.planes()[of].points) {
+    const MapPoint& p = map.points()[id];
+    if (p.assumed) continue;
+    const Keyframe& eye = map.keyframes()[p.observations.front().keyframe];
+    const double distance = (p.position - eye.T_wc.translation()).norm();
+    ++points;
+    on += std::abs(plane.signed_distance(p.position)) < kGate * options.point_sigma * distance;
+  }
+  if (points < kFewPoints) return std::nullopt;
+  return double(on) / points;
+}
 
 }  // namespace
 
@@ -119,16 +142,45 @@ std::vector<PlaneDecision> associate_planes(const Map& map, KeyframeId keyframe,
   return decisions;
 }
 
+const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPlane> known,
+                                  const PlaneAssociationOptions& options) {
+  const KnownPlane* nearest = nullptr;
+  double least = 1;
+  const double margin = kGap * seen.centroid.norm();
+  for (const KnownPlane& plane : known) {
+    const double off = disagreement(seen, plane, options);
+    if (off > least) continue;
+    const bool together =
+        touch(seen.outline, plane.outline, plane.plane.normal(), margin) ||
+        touch(plane.outline, convex_outline(seen.plane, seen.outline), seen.plane.normal(), margin);
+    if (!together) continue;
+    nearest = &plane;
+    least = off;
+  }
+  return nearest;
+}
+
 bool one_surface(const Map& map, PlaneId a, PlaneId b, double distance,
                  const PlaneAssociationOptions& options) {
   const Plane plane_a = map.plane_in_world(a), plane_b = map.plane_in_world(b);
   if (angle_between(plane_a, plane_b) > options.max_angle_deg * kRadians) return false;
   const auto outline_a = map.outline_in_world(a), outline_b = map.outline_in_world(b);
-  const double margin = options.max_offset * distance;
-  if (std::abs(plane_a.signed_distance(middle_of(outline_b))) > margin) return false;
-  if (std::abs(plane_b.signed_distance(middle_of(outline_a))) > margin) return false;
-  return touch(outline_a, outline_b, plane_b.normal(), margin) ||
-         touch(outline_b, outline_a, plane_a.normal(), margin);
+  const double margin = kGap * distance;
+  if (!touch(outline_a, outline_b, plane_b.normal(), margin) &&
+      !touch(outline_b, outline_a, plane_a.normal(), margin)) {
+    return false;
+  }
+  // The points say, where there are some.
+  const auto a_on_b = share_of_points_on(map, a, plane_b, options);
+  const auto b_on_a = share_of_points_on(map, b, plane_a, options);
+  if (a_on_b && b_on_a) return *a_on_b > kMostPoints || *b_on_a > kMostPoints;
+  if (a_on_b || b_on_a) return (a_on_b ? *a_on_b : *b_on_a) > kMostPoints;
+  const double sigma_a = map.planes()[a].sigma_tilt, sigma_b = map.planes()[b].sigma_tilt;
+  if (angle_between(plane_a, plane_b) > angle_gate(sigma_a, sigma_b, options)) return false;
+  const Eigen::Vector3d middle_a = middle_of(outline_a), middle_b = middle_of(outline_b);
+  const double off = kGap * distance;
+  return std::abs(plane_a.signed_distance(middle_b)) <= off &&
+         std::abs(plane_b.signed_distance(middle_a)) <= off;
 }
 
 }  // namespace cairn

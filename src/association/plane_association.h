@@ -10,10 +10,12 @@
 namespace cairn {
 
 struct PlaneAssociationOptions {
-  int th_high = 12;           ///< shared keypoints that make two planes one
-  int th_low = 4;             ///< fewer make them two; between the two nothing is decided
-  double max_angle_deg = 15;  ///< between the normals
-  double max_offset = 0.1;    ///< at the centroid, as a share of its distance from the camera
+  int th_high = 12;  ///< shared keypoints that make two planes one
+  int th_low = 4;    ///< fewer make them two; between the two nothing is decided
+  // However unsure both are; where their σ are small, three σ are the limit.
+  double max_angle_deg = 30;  ///< between the normals
+  double max_offset = 0.2;    ///< at the centroid, as a share of its distance from the camera
+  double point_sigma = 0.01;  ///< of a point off its plane, as a share of its viewing distance
 };
 
 /// What a detected plane is: one of the map, a new one, or neither for certain.
@@ -30,6 +32,19 @@ struct PlaneDecision {
 std::vector<PlaneDecision> associate_planes(const Map& map, KeyframeId keyframe,
                                             std::span<const SeenPlane> seen,
                                             const PlaneAssociationOptions& options);
+
+/// A plane of the map as a camera would see it, in the camera's frame.
+struct KnownPlane {
+  PlaneId id;
+  Plane plane;
+  std::vector<Eigen::Vector3d> outline;
+  double sigma_tilt = 0;  ///< of its normal, radians
+};
+
+/// Of the planes that what was seen agrees with in normal and offset, and that it touches, the one
+/// that it agrees with best; null where there is none.
+const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPlane> known,
+                                  const PlaneAssociationOptions& options);
 
 /// Do two landmarks agree in normal and offset, and touch or overlap? Offsets are judged at both
 /// outlines' middles, as shares of `distance` (units of the map).

@@ -70,6 +70,10 @@ void Map::merge_points(PointId from, PointId into) {
   target.visible += points_[from].visible;
   target.found += points_[from].found;
   if (!target.plane.valid()) set_plane_of(into, points_[from].plane);
+  if (target.assumed && !points_[from].assumed) {
+    target.position = points_[from].position;
+    target.assumed = false;
+  }
   erase_point(from);
   for (const Observation& o : moved) {
     if (keypoint_of(into, o.keyframe) < 0) add_observation(into, o.keyframe, o.keypoint);

@@ -19,6 +19,10 @@ struct Keyframe {
   std::shared_ptr<const Frame> frame;
   SE3 T_wc;                     ///< camera to world
   std::vector<PointId> points;  ///< one a keypoint; invalid where there is none
+  /// What a network predicts, one a keypoint, metres, 0: unknown; empty where none has looked.
+  std::vector<float> depth = {};
+  double sigma_depth = 0;        ///< of its logarithm at one keypoint
+  double sigma_depth_scale = 0;  ///< of the logarithm that all its keypoints share
 
   double timestamp() const { return frame->timestamp; }
 };
@@ -39,6 +43,7 @@ struct MapPoint {
   std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
   PackedColour colour;                   ///< of the keypoint that made it
   PlaneId plane;                         ///< on which it lies, if on one
+  bool assumed = false;  ///< its depth is that of its plane: no two views have measured it yet
 };
 
 /// Keyframes, points and planes with their observations. Owned and changed by the mapper alone.
@@ -47,6 +52,8 @@ class Map {
   explicit Map(const View& view) : view_(view) {}
 
   const View& view() const { return view_; }
+  /// Units of the map a metre of the plane detector; 0 while nothing is known of it.
+  double units_a_metre = 0;
   /// What the calibration got wrong, as far as it was estimated. Nothing until the full adjustment:
   /// tracking and mapping work with the calibration as given.
   LensCorrection& lens() { return lens_; }
@@ -87,6 +94,7 @@ class Map {
   PlaneId add_plane(KeyframeId keyframe, const SeenPlane& seen);
   /// The keyframe saw a plane of the map: one more observation, votes and outline.
   void observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen);
+  /// Points whose depth it gave go with it.
   void erase_plane(PlaneId id);
   /// Says that a point lies on a plane, or (invalid id) on none.
   void set_plane_of(PointId point, PlaneId plane);

@@ -38,7 +38,11 @@ void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) 
 }
 
 void Map::erase_plane(PlaneId id) {
-  for (const PointId point : planes_[id].points) points_[point].plane = {};
+  const std::vector<PointId> members = planes_[id].points;
+  for (const PointId point : members) {
+    points_[point].plane = {};
+    if (points_[point].assumed) erase_point(point);  // nothing else says where it is
+  }
   std::erase_if(relations_, [&](const RelatedPlanes& r) { return r.a == id || r.b == id; });
   planes_.erase(id);
 }

@@ -60,6 +60,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->median_depth = map.depth_quantile(reference, 0.5);
   view->map_keyframes = map.keyframes().size();
   view->map_points = map.points().size();
+  view->units_a_metre = map.units_a_metre;
 
   std::vector<PointId> ids;
   for (const KeyframeId id : local_keyframes(map, reference)) {
@@ -78,8 +79,8 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
     view->points.push_back({id, p.position, p.normal, p.base_distance, p.descriptor});
   }
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-    view->planes.push_back(
-        {id, map.plane_in_world(id), landmark.label(), map.outline_in_world(id)});
+    view->planes.push_back({id, map.plane_in_world(id), landmark.label(), map.outline_in_world(id),
+                            landmark.sigma_tilt});
   });
   std::sort(view->keyframes.begin(), view->keyframes.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });

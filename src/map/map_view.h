@@ -28,6 +28,7 @@ struct MapView {
     Plane plane;  ///< world
     std::string label;
     std::vector<Eigen::Vector3d> outline;  ///< world
+    double sigma_tilt = 0;                 ///< of its normal, radians
   };
 
   std::uint64_t version = 0;
@@ -40,6 +41,7 @@ struct MapView {
   std::vector<Point> points;                      ///< in order of ids
   std::vector<KeyframePose> keyframes;            ///< local ones, in order of ids
   std::vector<PlanePose> planes;                  ///< of the whole map, in order of ids
+  double units_a_metre = 0;                       ///< of the plane detector; 0: unknown
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
 

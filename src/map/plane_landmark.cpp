@@ -11,6 +11,15 @@ const std::string& PlaneLandmark::label() const {
   return most == votes.end() ? kNone : most->first;
 }
 
+SeenPlane SeenPlane::scaled(double factor) const {
+  SeenPlane result = *this;
+  result.plane = plane.scaled(factor);
+  result.centroid *= factor;
+  result.sigma_offset *= factor;
+  for (Eigen::Vector3d& corner : result.outline) corner *= factor;
+  return result;
+}
+
 bool PlaneLandmark::seen_by(KeyframeId keyframe) const {
   return std::any_of(observations.begin(), observations.end(),
                      [&](const PlaneObservation& o) { return o.keyframe == keyframe; });

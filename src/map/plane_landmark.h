@@ -20,6 +20,9 @@ struct SeenPlane {
   double score = 1;                      ///< 0 to 1
   std::vector<std::uint32_t> keypoints;  ///< of the keyframe, inside the mask
   std::vector<Eigen::Vector3d> outline;  ///< corners of the seen part, in order, on the plane
+
+  /// Where all lengths are multiplied by `factor`.
+  SeenPlane scaled(double factor) const;
 };
 
 /// A keyframe's view of a plane, as the factors need it.
@@ -41,6 +44,12 @@ struct PlaneLandmark {
   std::vector<Eigen::Vector3d> outline = {};        ///< convex, in the reference's frame
   std::uint32_t sightings = 0;                      ///< pictures that showed it, ever
   std::uint32_t last_seen = 0;                      ///< sequence number of the newest of them
+  // Evidence, kept by mapping.
+  double sigma_tilt = 3.2;  ///< of its normal, radians
+  /// How far its points lie off it, robustly (1.48 times the median), as a share of their viewing
+  /// distance: surfaces are not flat, and things lie on them.
+  double spread = 1;
+  bool confirmed = false;  ///< enough pictures, and enough points that pile up on it
 
   bool seen_by(KeyframeId keyframe) const;
   /// The label that most pictures gave it; of equal ones the first by name.

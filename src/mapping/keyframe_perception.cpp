@@ -123,7 +123,9 @@ PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePercepti
   std::vector<double> logs;
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     if (!keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
-    const double depth = (T_cw * map.points()[keyframe.points[i]].position).z();
+    const MapPoint& point = map.points()[keyframe.points[i]];
+    if (point.assumed) continue;
+    const double depth = (T_cw * point.position).z();
     if (depth > 0) logs.push_back(std::log(depth / seen.depth[i]));
   }
   PictureScale result;

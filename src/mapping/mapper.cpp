@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "cairn/features/retrieval.h"
 #include "cairn/mapping/point_creation.h"
@@ -14,6 +16,7 @@ namespace {
 constexpr int kMinInitialPoints = 50;
 constexpr double kMinFoundRatio = 0.25;  // of the frames that should see a point
 constexpr double kUnknownScale = 0.1;    // of a picture, relative
+constexpr double kLeastSpread = 0.02;    // of predicted scales
 constexpr std::uint32_t kProbation = 3;  // keyframes
 
 }  // namespace
@@ -59,6 +62,7 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
     map_.add_observation(p, current_, i);
     map_.update_descriptor(p);
     map_.update_geometry(p);
+    if (map_.points()[p].assumed) measure(p);
   }
   cull_recent_points();
   const std::vector<PointId> created = create_points(
@@ -69,6 +73,16 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
                 keyframe.timestamp(), map_.tracked_points(current_, 1), created.size(), fused);
   publish(current_);
   return current_;
+}
+
+// A point whose depth was that of its plane is measured once two views see it apart.
+void Mapper::measure(PointId id) {
+  MapPoint& point = map_.points()[id];
+  const auto ray = [&](const Observation& o) -> Eigen::Vector3d {
+    return (point.position - map_.keyframes()[o.keyframe].T_wc.translation()).normalized();
+  };
+  const double cosine = ray(point.observations.front()).dot(ray(point.observations.back()));
+  point.assumed = cosine > std::cos(options_.min_parallax_deg * std::numbers::pi / 180);
 }
 
 void Mapper::join(const KeyframePerception& seen) {
@@ -84,9 +98,18 @@ void Mapper::join(const KeyframePerception& seen) {
   // A picture that cannot be compared with the map is no surer than its detector's scale.
   const double log_error =
       picture.usable ? picture.log_error : std::max(seen.sigma_scale, kUnknownScale);
-  map_planes(map_, keyframe, seen, scale, log_error, options_.planes);
-  spdlog::debug("planes: {} in the picture at {:.3f}, {} in the map; {:.3f} units a metre",
-                seen.planes.size(), seen.frame->timestamp, map_.planes().size(), scale);
+  Keyframe& looked_at = map_.keyframes()[keyframe];
+  looked_at.depth = seen.depth;
+  looked_at.sigma_depth = log_error;
+  looked_at.sigma_depth_scale = std::max(scale_.spread(), kLeastSpread);
+  map_.units_a_metre = scale_.picture_scale() > 0 ? scale_.picture_scale() : scale;
+  const std::vector<PointId> assumed =
+      map_planes(map_, keyframe, seen, {scale, map_.units_a_metre, log_error, scale_.spread()},
+                 options_.planes);
+  recent_.insert(recent_.end(), assumed.begin(), assumed.end());
+  spdlog::debug(
+      "planes: {} in the picture at {:.3f}, {} in the map; {:.3f} units a metre, {} points assumed",
+      seen.planes.size(), seen.frame->timestamp, map_.planes().size(), scale, assumed.size());
   publish(current_);
 }
 
@@ -128,6 +151,12 @@ std::vector<KeyframeId> Mapper::similar_keyframes(const Features& features, int 
     result.push_back(ids[similar.index]);
   }
   return result;
+}
+
+ScaleEstimate Mapper::scale() const {
+  ScaleEstimate estimate = scale_.estimate();
+  if (estimate.known()) estimate.value = 1 / map_.units_a_metre;
+  return estimate;
 }
 
 void Mapper::count_visible(std::span<const PointId> visible, std::span<const PointId> found) {

@@ -6,6 +6,13 @@
 #include "cairn/geometry/median.h"
 
 namespace cairn {
+namespace {
+
+constexpr std::size_t kFewPictures = 5;
+constexpr double kFewSpread = 0.15;
+
+}  // namespace
+
 void MetricScale::add(double picture_scale, double sigma) {
   if (!std::isfinite(picture_scale) || !(picture_scale > 0)) return;
   logs_.push_back(-std::log(picture_scale));
@@ -17,18 +24,25 @@ double MetricScale::picture_scale() const {
   return logs.empty() ? 0 : std::exp(-median(logs));
 }
 
-ScaleEstimate MetricScale::estimate() const {
-  if (logs_.empty()) return {};
-  std::vector<double> logs = logs_;
-  const double middle = median(logs);
+double MetricScale::spread() const {
+  return logs_.size() < kFewPictures ? kFewSpread : deviation();
+}
+
+// 1.48 times the median deviation from the median: σ of a normal distribution.
+double MetricScale::deviation() const {
+  const double middle = -std::log(picture_scale());
   std::vector<double> deviations;
   deviations.reserve(logs_.size());
   for (const double value : logs_) deviations.push_back(std::abs(value - middle));
-  const double spread = 1.4826 * median(deviations);
+  return 1.4826 * median(deviations);
+}
+
+ScaleEstimate MetricScale::estimate() const {
+  if (logs_.empty()) return {};
   ScaleEstimate estimate;
   estimate.how = sigma_ > 0 ? "predicted depth" : "measured depth";
-  estimate.value = std::exp(middle);
-  estimate.sigma = std::hypot(sigma_, spread / std::sqrt(double(logs_.size())));
+  estimate.value = 1 / picture_scale();
+  estimate.sigma = std::hypot(sigma_, deviation() / std::sqrt(double(logs_.size())));
   estimate.pictures = static_cast<int>(logs_.size());
   return estimate;
 }

@@ -23,12 +23,16 @@ class MetricScale {
   void add(double picture_scale, double sigma);
   /// Of all pictures the median; 0 where there is none yet.
   double picture_scale() const;
+  /// How far pictures differ from one another: σ of the logarithm. A guess while they are few.
+  double spread() const;
   /// Metres, from the median over all pictures. Its σ: that of the detector in a scene, which no
   /// number of pictures makes smaller, and the spread of the pictures over the root of their
   /// number.
   ScaleEstimate estimate() const;
 
  private:
+  double deviation() const;
+
   double sigma_ = 0;          // the largest of all pictures
   std::vector<double> logs_;  // of metres a unit, as the detector has it
 };

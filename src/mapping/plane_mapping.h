@@ -8,20 +8,30 @@ namespace cairn {
 
 struct PlaneMappingOptions {
   bool manhattan = false;         ///< parallel and perpendicular planes are found and bound
-  double point_sigma = 0.01;      ///< of a point off its plane, as a share of its viewing distance
   int min_sightings = 3;          ///< pictures that a plane of the map must have
   int min_points = 10;            ///< of the map that must lie on it
   double max_tilt_sigma_deg = 5;  ///< how sure its normal must be
+  double max_spread = 0.03;       ///< of its points: those that only cross it are spread wider
   int probation = 8;  ///< keyframes after its last sighting within which all this must be
+  /// A keyframe with fewer measured points takes points from planes, without a second view.
+  int few_points = 100;
   PlaneAssociationOptions association;
+};
+
+/// Map units a metre of the detector.
+struct DepthScale {
+  double here = 1;          ///< in this picture, as the map's points have it
+  double everywhere = 1;    ///< as all pictures have it
+  double sigma_here = 0.1;  ///< local errors of the detector's depth in this picture, relative
+  double sigma_everywhere = 0.1;  ///< of this picture's depth against that of all
 };
 
 /// Takes the planes of a keyframe's picture into the map: decides which they are, lets the map's
 /// points say where they lie, gathers the points on them, fuses and removes landmarks, and finds
-/// which are parallel or perpendicular. `scale`: map units a metre of the detector;
-/// `log_error`: local errors of the detector's depth in this picture, relative.
-void map_planes(Map& map, KeyframeId keyframe, const KeyframePerception& seen, double scale,
-                double log_error, const PlaneMappingOptions& options);
+/// which are parallel or perpendicular. Where the keyframe sees few points, keypoints on its planes
+/// become points of the map by their planes' depth; these are returned.
+std::vector<PointId> map_planes(Map& map, KeyframeId keyframe, const KeyframePerception& seen,
+                                const DepthScale& scale, const PlaneMappingOptions& options);
 
 /// At the end: planes that were never confirmed go. Confirmed is what enough pictures show and
 /// enough points carry: what networks alone say of a surface is too rough for a map.

@@ -9,6 +9,7 @@
 
 #include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
+#include "cairn/optimization/factors/predicted_depth_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
 #include "cairn/optimization/plane_blocks.h"
 #include "cairn/optimization/se3_manifold.h"
@@ -16,8 +17,9 @@
 namespace cairn {
 namespace {
 
-constexpr int kLensGroup = 5;    // after those of the planes; see PlaneBlocks
-constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
+constexpr int kLensGroup = 5, kScaleGroup = 6;  // after those of the planes; see PlaneBlocks
+constexpr int kDepthsAKeyframe = 20;            // what a picture predicts errs alike all over it
+constexpr double kGate = 5.991;                 // χ², 2 degrees of freedom, 95 %
 
 // How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
 // errors of a point's observations are alike, so the data are less sure than they look, and the
@@ -29,10 +31,12 @@ constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 
 class Adjustment {
  public:
   Adjustment(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
-             std::vector<PointId> points, const PlaneFactorOptions& planes,
+             std::vector<PointId> points, const PlaneFactorOptions& planes, bool full = false,
              bool refine_lens = false)
       : map_(map),
+        full_(full),
         refine_lens_(refine_lens),
+        depth_options_(planes.predicted_depth),
         lens_(map.lens()),
         keyframes_(std::move(free)),
         points_(std::move(points)),
@@ -93,6 +97,7 @@ class Adjustment {
     for (std::size_t i = 0; i < free_count_; ++i) move(&pose_values_[7 * i + 4]);
     for (std::size_t i = 0; i < points_.size(); ++i) move(&point_values_[3 * i]);
     planes_.scale(scale);
+    log_units_ += std::log(scale);
   }
 
   void write_back() {
@@ -104,6 +109,7 @@ class Adjustment {
       map_.points()[points_[i]].position = Eigen::Vector3d::Map(&point_values_[3 * i]);
     }
     planes_.write_back(map_);
+    if (full_ && !depth_factors_.empty()) map_.units_a_metre = std::exp(log_units_);
   }
 
   // Erases the observations that lie beyond the gate; to be called after write_back.
@@ -183,9 +189,50 @@ class Adjustment {
         problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
       }
     }
+    if (depth_options_.use && map_.units_a_metre > 0) add_depths();
     if (!map_.planes().empty()) add_planes();
     hold_unit();
     if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
+  }
+
+  // A few a keyframe, as unsure together as the one scale of the picture.
+  void add_depths() {
+    log_units_ = std::log(map_.units_a_metre);
+    const auto depth_of = [&](const Edge& edge) {
+      const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
+      return keyframe.depth.empty() ? 0 : keyframe.depth[edge.keypoint];
+    };
+    std::vector<int> known(keyframes_.size()), passed(keyframes_.size());
+    const auto assumed = [&](const Edge& edge) {
+      return map_.points()[points_[edge.point]].assumed;
+    };
+    for (const Edge& edge : observations_) {
+      known[edge.keyframe] += depth_of(edge) > 0 && !assumed(edge);
+    }
+    for (const Edge& edge : observations_) {
+      const float depth = depth_of(edge);
+      if (!(depth > 0)) continue;
+      const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
+      const double local = std::max(keyframe.sigma_depth, 1e-3);
+      if (assumed(edge)) {  // nothing else says how far it is
+        add_depth(edge, depth, std::hypot(local, keyframe.sigma_depth_scale));
+        continue;
+      }
+      const int n = std::min(known[edge.keyframe], kDepthsAKeyframe);
+      const int i = passed[edge.keyframe]++;
+      if (i * n / known[edge.keyframe] == (i + 1) * n / known[edge.keyframe]) continue;
+      add_depth(edge, depth, std::hypot(local, std::sqrt(n) * keyframe.sigma_depth_scale));
+    }
+    if (depth_factors_.empty()) return;
+    ordering_->AddElementToGroup(&log_units_, kScaleGroup);
+    if (!full_) problem_->SetParameterBlockConstant(&log_units_);
+  }
+
+  void add_depth(const Edge& edge, double depth, double sigma) {
+    depth_factors_.emplace_back(depth, depth_options_.sigma * sigma);
+    problem_->AddResidualBlock(&depth_factors_.back(), nullptr,
+                               &pose_values_[std::size_t{7} * edge.keyframe],
+                               &point_values_[std::size_t{3} * edge.point], &log_units_);
   }
 
   void add_planes() {
@@ -235,7 +282,9 @@ class Adjustment {
   }
 
   Map& map_;
-  bool refine_lens_;
+  bool full_, refine_lens_;
+  FactorOptions depth_options_;
+  double log_units_ = 0;  // of the map a metre
   LensCorrection lens_;
   std::vector<KeyframeId> keyframes_;  // the free ones first
   std::size_t free_count_ = 0;
@@ -244,6 +293,7 @@ class Adjustment {
   std::vector<Edge> observations_;
   std::vector<double> pose_values_, point_values_;
   std::deque<PointFactor> factors_;
+  std::deque<PredictedDepthFactor> depth_factors_;
   std::deque<LensPointFactor> lens_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
@@ -340,7 +390,7 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
     if (free.empty() || points.empty()) return summary;
     Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options.planes,
-                          lens);
+                          true, lens);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

@@ -20,6 +20,12 @@ constexpr std::size_t kMaxHeldPoints = 200;  // outside of the adjustment, that 
 constexpr int kPlaneGroup = 2, kHeldPoseGroup = 3, kHeldPointGroup = 4;
 constexpr double kRadians = std::numbers::pi / 180;
 
+double viewing_distance(const Map& map, PointId id) {
+  const MapPoint& p = map.points()[id];
+  const Keyframe& eye = map.keyframes()[p.observations.front().keyframe];
+  return (p.position - eye.T_wc.translation()).norm();
+}
+
 }  // namespace
 
 void PlaneBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
@@ -43,7 +49,7 @@ void PlaneBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering&
   });
   for (Entry& entry : planes_) {
     if (options_.observation.use) add_observations(entry);
-    if (options_.point_on_plane.use) add_points(entry);
+    if (options_.point_on_plane.use && map_.planes()[entry.id].confirmed) add_points(entry);
   }
   add_relations();
 }
@@ -62,8 +68,9 @@ bool PlaneBlocks::takes_part(const PlaneLandmark& landmark, const PoseBlock& pos
 void PlaneBlocks::add_observations(Entry& entry) {
   const PlaneLandmark& landmark = map_.planes()[entry.id];
   const FactorForm form = options_.observation.form;
+  // Pictures of one network err alike: together they count as one.
+  const double s = options_.observation.sigma * std::sqrt(double(landmark.observations.size()));
   for (const PlaneObservation& o : landmark.observations) {
-    const double s = options_.observation.sigma;
     const PlaneMeasurement measurement =
         PlaneMeasurement::isotropic(o.normal, o.centroid, s * o.sigma_angle, s * o.sigma_offset);
     if (o.keyframe == landmark.reference) {
@@ -79,12 +86,10 @@ void PlaneBlocks::add_observations(Entry& entry) {
 void PlaneBlocks::add_points(Entry& entry) {
   const PlaneLandmark& landmark = map_.planes()[entry.id];
   double* reference = pose(landmark.reference);
+  const double share = std::max(options_.point_on_plane.sigma, landmark.spread);
   std::vector<PointId> outside;
   const auto add_point = [&](PointId id, double* position) {
-    const MapPoint& p = map_.points()[id];
-    const Keyframe& eye = map_.keyframes()[p.observations.front().keyframe];
-    const double sigma =
-        options_.point_on_plane.sigma * (p.position - eye.T_wc.translation()).norm();
+    const double sigma = share * viewing_distance(map_, id);
     add(std::make_unique<PointOnPlaneFactor>(sigma), losses_[1].get(),
         {reference, entry.values.data(), position});
   };

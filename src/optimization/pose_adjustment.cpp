@@ -1,14 +1,18 @@
 #include "cairn/optimization/pose_adjustment.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+
+#include "cairn/optimization/se3_manifold.h"
 
 namespace cairn {
 namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
+constexpr double kGate = 5.991;   // χ², 2 degrees of freedom, 95 %
+constexpr double kPlaneGate = 2;  // σ
 constexpr double kMinDepth = 1e-6;
 constexpr int kRounds = 4;
 constexpr int kIterations = 6;
@@ -55,10 +59,32 @@ NormalEquations linearise(std::span<const PoseObservation> observations, const P
   return n;
 }
 
+// Planes that are seen and the motion that is expected hold the pose.
+void add_support(const PoseSupport& support, const SE3& T_wc, NormalEquations& n) {
+  double pose[7];
+  SE3Manifold::pack(T_wc, pose);
+  const double* blocks[] = {pose};
+  for (const FixedPlaneObservationFactor& plane : support.planes) {
+    Eigen::Vector3d e;
+    Eigen::Matrix<double, 3, 7, Eigen::RowMajor> J;
+    double* jacobians[] = {J.data()};
+    plane.Evaluate(blocks, e.data(), jacobians);
+    const double norm = e.norm();
+    const double w = norm > kPlaneGate ? kPlaneGate / norm : 1.0;
+    n.H += w * J.leftCols<6>().transpose() * J.leftCols<6>();
+    n.g += w * J.leftCols<6>().transpose() * e;
+  }
+  const Vector6d information = support.prior.sigma.cwiseAbs2().cwiseInverse();
+  n.H.diagonal() += information;
+  n.g += information.cwiseProduct((support.prior.T_wc.inverse() * T_wc).log());
+}
+
 }  // namespace
 
 PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
-                                  const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier) {
+                                  const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier,
+                                  const PoseSupport* support) {
+  const int least = support != nullptr ? 0 : 3;
   inlier.assign(observations.size(), 1);
   PoseAdjustmentSummary summary;
   SE3 pose = T_wc;
@@ -69,8 +95,9 @@ PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
   for (int round = 0; round < kRounds; ++round) {
     const bool robust = round < kRounds - 1;
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      const NormalEquations n = linearise(observations, pinhole, pose.inverse(), inlier, robust);
-      if (n.used < 3) return refuse();
+      NormalEquations n = linearise(observations, pinhole, pose.inverse(), inlier, robust);
+      if (n.used < least) return refuse();
+      if (support != nullptr) add_support(*support, pose, n);
       const Vector6d step = n.H.ldlt().solve(-n.g);
       if (!step.allFinite()) return refuse();
       pose = pose * SE3::exp(step);
@@ -90,8 +117,8 @@ PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
         sum += e.squaredNorm();
       }
     }
-    if (summary.inliers < 3) return refuse();
-    summary.rms = std::sqrt(sum / summary.inliers);
+    if (summary.inliers < least) return refuse();
+    summary.rms = std::sqrt(sum / std::max(summary.inliers, 1));
   }
   if (!pose.is_finite()) return refuse();
   summary.usable = true;

@@ -3,11 +3,13 @@
 // The optimization room: factors and the problems made of them. It changes poses and landmarks, and
 // decides neither which of them to change nor what belongs to what.
 
+#include <deque>
 #include <span>
 #include <vector>
 
 #include "cairn/geometry/camera.h"
 #include "cairn/geometry/se3.h"
+#include "cairn/optimization/factors/plane_observation_factor.h"
 
 namespace cairn {
 
@@ -24,11 +26,25 @@ struct PoseAdjustmentSummary {
   double rms = 0;  ///< of the inliers, in σ
 };
 
+/// Where the camera is expected, and how surely: σ of a step T_wc · exp(ξ), translation first.
+struct PosePrior {
+  SE3 T_wc;
+  Vector6d sigma = Vector6d::Ones();
+};
+
+/// What holds a pose where points are few.
+struct PoseSupport {
+  std::deque<FixedPlaneObservationFactor> planes;  ///< robust: 2 σ and more count linearly
+  PosePrior prior;
+};
+
 /// Motion-only adjustment: the camera pose alone, from points held fixed. Gauss-Newton on se(3)
 /// with Huber weights, in rounds; after each round observations beyond the 95 % gate of their χ²
 /// (5.99 at 2 degrees of freedom) are set aside, and come back if they agree later.
-/// `T_wc` is start and result; `inlier` gets one entry an observation.
+/// `T_wc` is start and result; `inlier` gets one entry an observation. With `support` even a pose
+/// that no point agrees with is usable.
 PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
-                                  const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier);
+                                  const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier,
+                                  const PoseSupport* support = nullptr);
 
 }  // namespace cairn

@@ -21,8 +21,6 @@ void MappingSchedule::insert(KeyframeCandidate candidate, Sighting sighting) {
   Insertion insertion{std::move(candidate), std::move(sighting)};
   if (!threaded_) {
     run_insertion(insertion);
-    mapper_->adjust(nullptr);
-    publish();
     return;
   }
   {
@@ -44,6 +42,12 @@ void MappingSchedule::join(KeyframePerception perception) {
     perceptions_.push_back(std::move(perception));
   }
   wake_.notify_one();
+}
+
+void MappingSchedule::settle() {
+  if (threaded_) return;
+  mapper_->adjust(nullptr);
+  publish();
 }
 
 void MappingSchedule::relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed) {

@@ -29,6 +29,9 @@ class MappingSchedule {
   void insert(KeyframeCandidate candidate, Sighting sighting);
   /// What perception says of a keyframe that was handed over before.
   void join(KeyframePerception perception);
+  /// All is said of the newest keyframe. In lockstep the map is adjusted now, in realtime it is
+  /// when there is time.
+  void settle();
   /// Where is this lost frame? The answer comes by `take_relocalization`.
   void relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed);
   struct Answer {

@@ -49,12 +49,15 @@ OptionTable::OptionTable(Options& o) {
   add("planes.max_angle_deg", planes.association.max_angle_deg, "degrees", {1, 60}, "between the normals of two planes that are one");
   add("planes.max_offset", planes.association.max_offset, "", {0.005, 1}, "between two planes that are one, as a share of the viewing distance");
   add("planes.min_sightings", planes.min_sightings, "pictures", {1, 100}, "that a plane of the final map must have");
-  add("planes.point_sigma", planes.point_sigma, "", {0.001, 0.2}, "distance of a point that lies on a plane, as a share of the viewing distance");
+  add("planes.point_sigma", planes.association.point_sigma, "", {0.001, 0.2}, "distance of a point that lies on a plane, as a share of the viewing distance");
   add("planes.min_points", planes.min_points, "points", {0, 1000}, "of the map that must lie on it");
   add("planes.max_tilt_sigma_deg", planes.max_tilt_sigma_deg, "degrees", {0.5, 45}, "how sure its normal must be");
+  add("planes.max_spread", planes.max_spread, "", {0.001, 1}, "of its points off it, as a share of the viewing distance");
+  add("planes.few_points", planes.few_points, "points", {0, 10000}, "measured; a keyframe with fewer takes points from planes and predicted depth");
   add("planes.probation", planes.probation, "keyframes", {1, 1000}, "after its last sighting within which all this must be reached");
 
   PlaneFactorOptions& factors = o.mapping.adjustment.planes;
+  add_factor("predicted_depth", factors.predicted_depth, "", {0.01, 100}, "what a picture says of the depth of points, times the sigma that pictures show");
   add_factor("plane_observation", factors.observation, "", {0.01, 100}, "what a picture says of a plane, times the detector's own sigma");
   add_factor("point_on_plane", factors.point_on_plane, "", {0.0005, 0.5}, "a point's distance from its plane, as a share of the viewing distance");
   add_factor("parallel", factors.parallel, "degrees", {0.05, 45}, "angle between two planes that are parallel");

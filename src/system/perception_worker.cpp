@@ -14,8 +14,12 @@ PerceptionWorker::PerceptionWorker(std::unique_ptr<PlaneDetector> detector, cons
 PerceptionWorker::~PerceptionWorker() { stop(); }
 
 void PerceptionWorker::look(std::shared_ptr<const Frame> frame, const PerceptionInput& input) {
+  if (seen_now_ && seen_now_->frame == frame) {
+    deliver_(*std::exchange(seen_now_, std::nullopt));
+    return;
+  }
   if (!thread_.joinable()) {
-    run({std::move(frame), input});
+    deliver_(see({std::move(frame), input}));
     return;
   }
   {
@@ -25,6 +29,14 @@ void PerceptionWorker::look(std::shared_ptr<const Frame> frame, const Perception
     waiting_ = std::move(task);
   }
   wake_.notify_one();
+}
+
+std::vector<SeenPlane> PerceptionWorker::planes_now(std::shared_ptr<const Frame> frame,
+                                                    const PerceptionInput& input) {
+  const std::unique_lock busy(detector_mutex_, std::try_to_lock);
+  if (!busy) return {};
+  seen_now_ = summarize_perception(detector_->detect(input), std::move(frame), camera_, view_);
+  return seen_now_->planes;
 }
 
 void PerceptionWorker::stop() {
@@ -37,8 +49,9 @@ void PerceptionWorker::stop() {
   thread_.join();
 }
 
-void PerceptionWorker::run(const Task& task) {
-  deliver_(summarize_perception(detector_->detect(task.input), task.frame, camera_, view_));
+KeyframePerception PerceptionWorker::see(const Task& task) {
+  const std::lock_guard busy(detector_mutex_);
+  return summarize_perception(detector_->detect(task.input), task.frame, camera_, view_);
 }
 
 void PerceptionWorker::loop() {
@@ -50,7 +63,7 @@ void PerceptionWorker::loop() {
       if (stopping_) return;
       task = *std::exchange(waiting_, std::nullopt);
     }
-    run(task);
+    deliver_(see(task));
   }
 }
 

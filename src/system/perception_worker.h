@@ -23,6 +23,10 @@ class PerceptionWorker {
   ~PerceptionWorker();
 
   void look(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
+  /// The planes of a frame, found within the call; nothing while another picture is looked at. If
+  /// `look` is asked for the same frame afterwards, this is what it delivers.
+  std::vector<SeenPlane> planes_now(std::shared_ptr<const Frame> frame,
+                                    const PerceptionInput& input);
   /// Waits for what is being looked at; nothing is delivered afterwards.
   void stop();
 
@@ -32,12 +36,14 @@ class PerceptionWorker {
     PerceptionInput input;
   };
   void loop();
-  void run(const Task& task);
+  KeyframePerception see(const Task& task);
 
   std::unique_ptr<PlaneDetector> detector_;
   Camera camera_;
   View view_;
   std::function<void(KeyframePerception)> deliver_;
+  std::mutex detector_mutex_;
+  std::optional<KeyframePerception> seen_now_;  // of the calling thread
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;

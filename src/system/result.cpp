@@ -5,7 +5,7 @@
 
 namespace cairn {
 
-std::vector<MappedPlane> describe_planes(const Map& map, const PlaneMappingOptions& options) {
+std::vector<MappedPlane> describe_planes(const Map& map) {
   std::vector<MappedPlane> planes;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     MappedPlane plane;
@@ -19,7 +19,7 @@ std::vector<MappedPlane> describe_planes(const Map& map, const PlaneMappingOptio
     for (Eigen::Vector3d& corner : plane.outline) {
       corner -= in_world.signed_distance(corner) * plane.normal;
     }
-    plane.sigma_angle = tilt_sigma(map, id, options);
+    plane.sigma_angle = landmark.sigma_tilt;
     plane.points = static_cast<int>(landmark.points.size());
     plane.sightings = static_cast<int>(landmark.sightings);
     for (const PlaneObservation& o : landmark.observations) {

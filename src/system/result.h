@@ -9,7 +9,7 @@
 namespace cairn {
 
 /// The planes of a map in its world, in order of ids, with what they are bound to.
-std::vector<MappedPlane> describe_planes(const Map& map, const PlaneMappingOptions& options);
+std::vector<MappedPlane> describe_planes(const Map& map);
 
 /// Multiplies all lengths of a result in units of the map by its scale.
 void to_metres(SlamResult& result);

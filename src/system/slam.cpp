@@ -61,9 +61,11 @@ struct Slam::Implementation {
 
   std::shared_ptr<const Frame> make_frame(const cv::Mat& picture, double timestamp);
   void initialise(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
-  bool track(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
+  bool track(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input,
+             FrameRecord& record);
   void lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
-  bool recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
+  bool recover(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input,
+               FrameRecord& record);
   void hand_over_keyframe();
   void perceive(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input);
   void deliver(KeyframePerception seen);
@@ -157,10 +159,11 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   record.timestamp = timestamp;
   const std::shared_ptr<const Frame> frame = s.make_frame(picture, timestamp);
   record.extract_ms = milliseconds_since(start);
+  const PerceptionInput input{picture, depth, timestamp};
   double mapping_ms = 0;
   if (!s.mapping) {
     s.initialise(frame, record);
-  } else if (s.lost ? s.recover(frame, record) : s.track(frame, record)) {
+  } else if (s.lost ? s.recover(frame, input, record) : s.track(frame, input, record)) {
     record.state = FrameState::kTracked;
     result.T_wc = s.tracker.last().T_wc;
     s.log.add(timestamp, s.tracker.last().reference, s.tracker.last().T_rc, *result.T_wc);
@@ -175,7 +178,8 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   }
   if (record.keyframe) {
     const auto before = std::chrono::steady_clock::now();
-    s.perceive(frame, {picture, depth, timestamp});
+    s.perceive(frame, input);
+    s.mapping->settle();
     mapping_ms += milliseconds_since(before);
   }
   record.total_ms = milliseconds_since(start) - mapping_ms;
@@ -214,8 +218,11 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
                map_view->points.size());
 }
 
-bool Slam::Implementation::track(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
-  const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record);
+bool Slam::Implementation::track(const std::shared_ptr<const Frame>& frame,
+                                 const PerceptionInput& input, FrameRecord& record) {
+  PlanesInSight planes_in_sight;
+  if (perception) planes_in_sight = [&] { return perception->planes_now(frame, input); };
+  const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record, planes_in_sight);
   if (tracked == nullptr) return false;
   if (++frames_since_keyframe > kSightingFrames) return true;
   sighting.visible.insert(sighting.visible.end(), tracked->visible.begin(), tracked->visible.end());
@@ -258,7 +265,8 @@ void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, Frame
 }
 
 // A lost frame: asks where it is; goes on from the answer once there is one.
-bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
+bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame,
+                                   const PerceptionInput& input, FrameRecord& record) {
   const auto start = std::chrono::steady_clock::now();
   if (!mapping->relocalizing()) mapping->relocalize(frame, options.seed + records.size());
   const std::optional<MappingSchedule::Answer> answer = mapping->take_relocalization();
@@ -268,7 +276,7 @@ bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame, Fr
                      answer->found->points);
   record.inliers = record.matches = answer->found->inliers;
   // In realtime the answer is for an earlier frame: the present one is tracked from there.
-  if (answer->frame != frame && !track(frame, record)) return false;
+  if (answer->frame != frame && !track(frame, input, record)) return false;
   lost = false;
   gaps.back().recovered = frame->timestamp;
   spdlog::info("found again at {:.3f} s with {} points", frame->timestamp, record.inliers);
@@ -310,7 +318,7 @@ SlamResult Slam::finish() {
     const auto [r, g, b] = p.colour.rgb();
     result.points.push_back({p.position, {r, g, b}, static_cast<int>(p.observations.size())});
   });
-  result.planes = describe_planes(map, s.options.mapping.planes);
+  result.planes = describe_planes(map);
   result.scale = mapper.scale();
   if (result.scale.known()) to_metres(result);
   result.reprojection = reprojection_error(map);

@@ -20,8 +20,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-constexpr int kMinMatches = 20;     // of the motion model, before a wider search
-constexpr int kCautiousFrames = 3;  // after a (re)start, search wider
+constexpr int kMinMatches = 20;      // of the motion model, before a wider search
+constexpr int kCautiousFrames = 3;   // after a (re)start, search wider
+constexpr double kUnsureTilt = 0.3;  // radians: such a plane of the map holds nothing
+// Weights say how little a picture knows; a wall that is far off is still that wall.
+constexpr PlaneAssociationOptions kLoose = {.max_angle_deg = 45, .max_offset = 0.6};
+// What hands and vehicles do to a camera between two frames.
+constexpr double kAcceleration = 15;      // median depths a second squared
+constexpr double kTurnAcceleration = 30;  // radians a second squared
 constexpr double kFrontalCosine = 0.998;
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth
@@ -70,10 +76,11 @@ SE3 Tracker::predict(double timestamp) const {
 }
 
 const TrackedFrame* Tracker::track(std::shared_ptr<const Frame> frame,
-                                   const std::shared_ptr<const MapView>& view,
-                                   FrameRecord& record) {
+                                   const std::shared_ptr<const MapView>& view, FrameRecord& record,
+                                   const PlanesInSight& planes_in_sight) {
   Stopwatch watch;
   adopt_view(view);
+  support_.reset();
   SE3 T_wc = predict(frame->timestamp);
   bool ok = track_motion(*frame, T_wc);
   if (!ok) {
@@ -82,6 +89,10 @@ const TrackedFrame* Tracker::track(std::shared_ptr<const Frame> frame,
   }
   record.predict_ms = watch.lap();
   if (ok) ok = track_local_map(*frame, T_wc);
+  if (planes_in_sight && map_->units_a_metre > 0 &&
+      (!ok || std::count(inlier_.begin(), inlier_.end(), 1) < options_.few_points)) {
+    ok = track_supported(*frame, T_wc, planes_in_sight()) || ok;
+  }
   record.matches = static_cast<int>(observations_.size());
   record.inliers = static_cast<int>(std::count(inlier_.begin(), inlier_.end(), 1));
   record.local_map_ms = watch.lap();
@@ -128,9 +139,50 @@ bool Tracker::track_motion(const Frame& frame, SE3& T_wc) {
     if (search_by_projection(frame, expected_, {80, 0.9}, current_points_) >= kMinMatches) break;
   }
   SE3 pose = T_wc;
-  if (adjust(frame, pose) < options_.min_prediction_inliers) return false;
+  const int least = support_ ? options_.min_supported_inliers : options_.min_prediction_inliers;
+  if (adjust(frame, pose) < least) return false;
   T_wc = pose;
   return true;
+}
+
+// Points are few: planes that the picture shows, and the motion so far, hold the camera with them.
+bool Tracker::track_supported(const Frame& frame, SE3& T_wc, const std::vector<SeenPlane>& planes) {
+  SE3 pose = predict(frame.timestamp);
+  support_ = support(pose, frame.timestamp, planes);
+  if (support_->planes.empty()) return false;
+  // Where the motion leads nowhere, the whole map around may know more.
+  if (!track_motion(frame, pose)) current_points_.assign(frame.size(), kNoPoint);
+  if (!track_local_map(frame, pose)) return false;
+  T_wc = pose;
+  return true;
+}
+
+PoseSupport Tracker::support(const SE3& T_wc, double timestamp,
+                             const std::vector<SeenPlane>& planes) const {
+  const SE3 T_cw = T_wc.inverse();
+  std::vector<KnownPlane> known;
+  for (const MapView::PlanePose& plane : map_->planes) {
+    if (plane.sigma_tilt > kUnsureTilt) continue;
+    known.push_back({plane.id, plane.plane.transformed(T_cw), plane.outline, plane.sigma_tilt});
+    for (Eigen::Vector3d& corner : known.back().outline) corner = T_cw * corner;
+  }
+  PoseSupport support;
+  for (const SeenPlane& metric : planes) {
+    const SeenPlane seen = metric.scaled(map_->units_a_metre);
+    const KnownPlane* plane = nearest_surface(seen, known, kLoose);
+    if (plane == nullptr) continue;
+    support.planes.emplace_back(
+        FactorForm::kRobust,
+        PlaneMeasurement::isotropic(seen.plane.facing_origin().normal(), seen.centroid,
+                                    std::hypot(seen.sigma_angle, plane->sigma_tilt),
+                                    seen.sigma_offset),
+        plane->plane.transformed(T_wc));
+  }
+  const double dt = timestamp - last_.frame->timestamp;
+  support.prior.T_wc = T_wc;
+  support.prior.sigma << Eigen::Vector3d::Constant(kAcceleration * dt * dt * map_->median_depth),
+      Eigen::Vector3d::Constant(kTurnAcceleration * dt * dt);
+  return support;
 }
 
 // No usable motion: all points of the reference keyframe are compared by descriptor.
@@ -163,7 +215,9 @@ bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
   }
   expected_.clear();
   last_.visible.clear();
-  const double widen = frames_since_start_ < kCautiousFrames ? 2.0 : 1.0;
+  const bool astray = support_ && std::all_of(current_points_.begin(), current_points_.end(),
+                                              [](std::uint32_t p) { return p == kNoPoint; });
+  const double widen = astray ? 4.0 : frames_since_start_ < kCautiousFrames ? 2.0 : 1.0;
   for (std::uint32_t i = 0; i < map_->points.size(); ++i) {
     const MapView::Point& p = map_->points[i];
     if (seen_[i]) {
@@ -180,7 +234,7 @@ bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
                          static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
   }
   search_by_projection(frame, expected_, {100, 0.8}, current_points_);
-  return adjust(frame, T_wc) >= options_.min_inliers;
+  return adjust(frame, T_wc) >= (support_ ? options_.min_supported_inliers : options_.min_inliers);
 }
 
 // Motion-only adjustment of the current matches; those that do not agree are let go.
@@ -193,7 +247,8 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc) {
         {map_->points[current_points_[i]].position, frame.pixel(i), view_.sigma(frame.octave(i))});
     observed_keypoints_.push_back(i);
   }
-  const PoseAdjustmentSummary summary = adjust_pose(observations_, view_.pinhole(), T_wc, inlier_);
+  const PoseAdjustmentSummary summary =
+      adjust_pose(observations_, view_.pinhole(), T_wc, inlier_, support_ ? &*support_ : nullptr);
   for (std::size_t k = 0; k < observed_keypoints_.size(); ++k) {
     if (!inlier_[k]) current_points_[observed_keypoints_[k]] = kNoPoint;
   }
@@ -205,9 +260,11 @@ bool Tracker::wants_keyframe(bool mapper_idle) const {
                      Eigen::AngleAxisd(last_.T_rc.rotation()).angle() > kStillRadians;
   const bool long_ago = last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
   const bool weak = last_.inliers < options_.keyframe_ratio * map_->reference_tracked;
+  // What is left over could become points of the map.
+  const bool starving = support_ && 2 * last_.inliers < int(last_.frame->size());
   const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
-  if (last_.inliers < 15) return false;
-  return (mapper_idle && moved && (weak || long_ago)) || very_weak;
+  if (last_.inliers < 15 && !support_) return false;
+  return (mapper_idle && moved && (weak || long_ago || starving)) || very_weak;
 }
 
 }  // namespace cairn

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "cairn/association/plane_association.h"
 #include "cairn/map/frame_record.h"
 #include "cairn/map/map_view.h"
 #include "cairn/optimization/pose_adjustment.h"
@@ -20,6 +22,8 @@ struct TrackingOptions {
   int max_local_points = 4000;    ///< points of the map that a frame is compared with
   double keyframe_ratio = 0.9;    ///< a new keyframe when fewer of the reference's points are seen
   double max_keyframe_gap = 1.0;  ///< seconds without a keyframe
+  int few_points = 60;            ///< with fewer inliers planes help to hold the camera
+  int min_supported_inliers = 6;  ///< points that must agree with a pose that planes hold
 };
 
 /// What the tracker found out about one frame.
@@ -33,6 +37,9 @@ struct TrackedFrame {
   int matches = 0, inliers = 0;
 };
 
+/// The planes of the present picture, in metres of their detector, asked for where points are few.
+using PlanesInSight = std::function<std::vector<SeenPlane>()>;
+
 /// Follows the camera from frame to frame. Single-threaded; holds no map, only the last frame.
 class Tracker {
  public:
@@ -41,7 +48,8 @@ class Tracker {
   /// The pose of a frame, or nothing if the map was lost. `view` is the newest there is. Fills the
   /// stage times of `record`.
   const TrackedFrame* track(std::shared_ptr<const Frame> frame,
-                            const std::shared_ptr<const MapView>& view, FrameRecord& record);
+                            const std::shared_ptr<const MapView>& view, FrameRecord& record,
+                            const PlanesInSight& planes_in_sight = {});
 
   /// Tracking goes on from a frame whose pose is known (initialisation, relocalisation).
   void start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
@@ -60,6 +68,9 @@ class Tracker {
   bool track_motion(const Frame& frame, SE3& T_wc);
   bool track_reference(const Frame& frame, SE3& T_wc);
   bool track_local_map(const Frame& frame, SE3& T_wc);
+  bool track_supported(const Frame& frame, SE3& T_wc, const std::vector<SeenPlane>& planes);
+  PoseSupport support(const SE3& T_wc, double timestamp,
+                      const std::vector<SeenPlane>& planes) const;
   int adjust(const Frame& frame, SE3& T_wc);
 
   View view_;
@@ -71,6 +82,7 @@ class Tracker {
   double velocity_seconds_ = 0;
   bool has_velocity_ = false;
   int frames_since_start_ = 0;
+  std::optional<PoseSupport> support_;  // of the present frame, where it needs some
   double last_keyframe_time_ = 0;
 
   // Reused between frames.

@@ -240,5 +240,26 @@ TEST_F(MapPlanes, APlaneMovesWithItsReferenceAndWithNoOther) {
   EXPECT_TRUE(has_corner(map.outline_in_world(id), moved * wall_corners()[0]));
 }
 
+TEST_F(MapPlanes, PointsOfAssumedDepthGoWithTheirPlane) {
+  const PlaneId id = map.add_plane(a, wall_of(a));
+  map.set_plane_of(points[0], id);
+  map.set_plane_of(points[1], id);
+  map.points()[points[0]].assumed = true;
+  map.erase_plane(id);
+  EXPECT_FALSE(map.points().contains(points[0])) << "nothing else says where it is";
+  EXPECT_TRUE(map.points().contains(points[1])) << "measured";
+  EXPECT_EQ(broken_links(map), "");
+}
+
+TEST_F(MapPlanes, AMeasuredPointTakesThePlaceOfAnAssumedOne) {
+  const PointId assumed = map.add_point(map.points()[points[0]].position * 1.3);
+  map.points()[assumed].assumed = true;
+  const Eigen::Vector3d measured = map.points()[points[0]].position;
+  map.merge_points(points[0], assumed);
+  EXPECT_FALSE(map.points()[assumed].assumed);
+  EXPECT_EQ(map.points()[assumed].position, measured);
+  EXPECT_EQ(broken_links(map), "");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -113,7 +113,7 @@ class MapPlanesOfPictures : public ::testing::Test {
     map = map_of(points, few_poses(3));
   }
   void show(KeyframeId id, const std::vector<std::vector<Eigen::Vector3d>>& planes) {
-    map_planes(map, id, perceive(map, id, planes, 36, 5, 0.04), kScale, 0.04, options);
+    map_planes(map, id, perceive(map, id, planes, 36, 5, 0.04), {kScale, kScale, 0.04, 0}, options);
     EXPECT_EQ(broken_planes(map), "");
   }
 
@@ -128,7 +128,7 @@ TEST_F(MapPlanesOfPictures, OnePlaneInTwoPicturesIsOneLandmarkWithItsPoints) {
   for (int i : {0, 1}) {
     KeyframePerception seen = perceive(map, keyframes[i], {wall_corners()}, 36, 5, 0.04);
     for (std::uint32_t k = 72; k < 78; ++k) seen.planes[0].keypoints.push_back(k);  // in front
-    map_planes(map, keyframes[i], seen, kScale, 0.04, options);
+    map_planes(map, keyframes[i], seen, {kScale, kScale, 0.04, 0}, options);
   }
   ASSERT_THAT(planes_of(map), SizeIs(1));
   const PlaneId id = planes_of(map)[0];
@@ -142,6 +142,35 @@ TEST_F(MapPlanesOfPictures, OnePlaneInTwoPicturesIsOneLandmarkWithItsPoints) {
     const SeenPlane said = disturbed(seen_from(T_wc, wall_corners()), 5, 0.04);
     EXPECT_LT((o.centroid - said.centroid).norm(), 1e-9);
     EXPECT_THAT(Plane::through(o.centroid, o.normal), IsNearPlane(said.plane, 1e-3, 1e-6));
+  }
+  EXPECT_EQ(broken_planes(map), "");
+}
+
+// A keyframe that has lost half of its points: on the wall, and in front of it.
+TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewPlaneAndPredictedDepthGiveThem) {
+  const KeyframeId keyframe = keyframes_of(map)[1];
+  KeyframePerception seen = perceive(map, keyframe, {wall_corners()}, 36, 0, 0);
+  const SE3 T_cw = map.keyframes()[keyframe].T_wc.inverse();
+  std::vector<std::uint32_t> freed;
+  for (std::uint32_t k = 0; k < 78; k += 2) {
+    if (k >= 36 && k < 72) continue;  // the floor stays
+    const PointId p = map.keyframes()[keyframe].points[k];
+    const double z = (T_cw * map.points()[p].position).z();
+    seen.depth[k] = k < 36 ? 0 : float(z / kScale);  // beside the wall, the network says
+    map.erase_point(p);
+    freed.push_back(k);
+  }
+  options.few_points = 10;  // more are measured: nothing is assumed
+  EXPECT_TRUE(map_planes(map, keyframe, seen, {kScale, kScale, 0.04, 0}, options).empty());
+  options.few_points = 100;
+  const auto assumed = map_planes(map, keyframe, seen, {kScale, kScale, 0.04, 0}, options);
+  EXPECT_EQ(assumed.size(), freed.size());
+  for (const PointId p : assumed) {
+    const MapPoint& point = map.points()[p];
+    EXPECT_TRUE(point.assumed);
+    const std::uint32_t k = point.observations.front().keypoint;
+    EXPECT_LT((point.position - points[k]).norm(), 0.05) << k;
+    EXPECT_EQ(point.plane.valid(), k < 36) << k;
   }
   EXPECT_EQ(broken_planes(map), "");
 }

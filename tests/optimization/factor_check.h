@@ -29,6 +29,9 @@ struct Block {
     PlaneManifold::pack(plane, block.values.data());
     return block;
   }
+  static Block of(double value) {
+    return {{value}, std::make_shared<ceres::EuclideanManifold<1>>()};
+  }
   static Block of(const Eigen::Vector3d& x) {
     return {{x.x(), x.y(), x.z()}, std::make_shared<ceres::EuclideanManifold<3>>()};
   }

@@ -25,6 +25,11 @@ class FactorGraph {
     PlaneManifold::pack(plane, x);
     return add(x, 4, new PlaneManifold, held);
   }
+  double* add(double value, bool held = false) {
+    double* x = values_.emplace_back().data();
+    *x = value;
+    return add(x, 1, nullptr, held);
+  }
   double* add(const Eigen::Vector3d& point, bool held = false) {
     double* x = values_.emplace_back().data();
     Eigen::Map<Eigen::Vector3d>(x, 3) = point;

@@ -65,6 +65,56 @@ TEST(PoseAdjustment, NoiseMovesThePoseALittleAndTheRmsTellsIt) {
   }
 }
 
+// Three walls of a room as one picture shows them, exactly.
+PoseSupport walls_around(const SE3& T_wc, double sigma_angle, double sigma_offset) {
+  PoseSupport support;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Vector3d normal = Eigen::Vector3d::Constant(0.3);
+    normal[axis] = -1;
+    const Plane in_camera(normal.normalized(), 2.5);
+    const Eigen::Vector3d centroid = -in_camera.offset() * in_camera.normal();
+    support.planes.emplace_back(
+        FactorForm::kRobust,
+        PlaneMeasurement::isotropic(in_camera.normal(), centroid, sigma_angle, sigma_offset),
+        in_camera.transformed(T_wc));
+  }
+  return support;
+}
+
+TEST(PoseAdjustment, ThreeWallsHoldACameraThatSeesNoPoint) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const SE3 truth = Random(seed).motion(3, 5);
+    PoseSupport support = walls_around(truth, 0.02, 0.02);
+    SE3 T_wc = truth * Random(seed + 100).motion(0.1, 0.2);
+    support.prior = {T_wc, Vector6d::Constant(10)};
+    std::vector<char> inlier;
+    const auto summary = adjust_pose({}, kCamera, T_wc, inlier, &support);
+    EXPECT_TRUE(summary.usable);
+    EXPECT_EQ(summary.inliers, 0);
+    EXPECT_LT((T_wc.inverse() * truth).log().norm(), 1e-3) << seed;
+  }
+}
+
+TEST(PoseAdjustment, TheExpectedMotionHoldsWhatNothingElseSays) {
+  const SE3 expected = Random(7).motion(1, 2);
+  PoseSupport support;
+  support.prior = {expected, Vector6d::Constant(0.1)};
+  SE3 T_wc = expected * Random(8).motion(0.1, 0.1);
+  std::vector<char> inlier;
+  EXPECT_TRUE(adjust_pose({}, kCamera, T_wc, inlier, &support).usable);
+  EXPECT_LT((T_wc.inverse() * expected).log().norm(), 1e-6);
+}
+
+TEST(PoseAdjustment, ManyPointsAreStrongerThanAWrongExpectation) {
+  const Sights sights = make_sights(3, 200, 0, 0);
+  PoseSupport support;
+  support.prior = {sights.T_wc * Random(9).motion(0.05, 0.1), Vector6d::Constant(0.3)};
+  SE3 T_wc = support.prior.T_wc;
+  std::vector<char> inlier;
+  EXPECT_TRUE(adjust_pose(sights.observations, kCamera, T_wc, inlier, &support).usable);
+  EXPECT_LT((T_wc.inverse() * sights.T_wc).log().norm(), 0.002);
+}
+
 TEST(PoseAdjustment, MarksOutliersAndIsNotMovedByThem) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Sights sights = make_sights(seed, 200, 0.5, 0.3);

@@ -20,7 +20,10 @@ class MappingScheduleTest : public ::testing::TestWithParam<Pace> {
     EXPECT_TRUE(mapper->initialize(drive.initial(along(0), along(0.3))));
     schedule = std::make_unique<MappingSchedule>(std::move(mapper), options);
   }
-  void insert(double s) { schedule->insert(drive.candidate(along(s), *schedule->view()), {}); }
+  void insert(double s) {
+    schedule->insert(drive.candidate(along(s), *schedule->view()), {});
+    schedule->settle();
+  }
 
   testing::PointWorld world{91};
   testing::Drive drive{world};
