@@ -76,10 +76,9 @@ class Candidates {
       : map_(map), keyframe_(map.keyframes()[keyframe]), options_(options) {
     const SE3 T_kw = keyframe_.T_wc.inverse();
     map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-      KnownPlane known{id, map.plane_in_world(id).transformed(T_kw), map.outline_in_world(id),
-                       landmark.sigma_tilt};
-      for (Eigen::Vector3d& corner : known.outline) corner = T_kw * corner;
-      known_.push_back(std::move(known));
+      known_.push_back(
+          KnownPlane{id, map.plane_in_world(id), map.outline_in_world(id), landmark.sigma_tilt}
+              .transformed(T_kw));
     });
   }
 
@@ -121,10 +120,9 @@ std::optional<double> share_of_points_on(const Map& map, PlaneId of, const Plane
   for (const PointId id : map.planes()[of].points) {
     const MapPoint& p = map.points()[id];
     if (p.assumed) continue;
-    const Keyframe& eye = map.keyframes()[p.observations.front().keyframe];
-    const double distance = (p.position - eye.T_wc.translation()).norm();
+    const double sigma = options.point_sigma * map.viewing_distance(id);
     ++points;
-    on += std::abs(plane.signed_distance(p.position)) < kGate * options.point_sigma * distance;
+    on += std::abs(plane.signed_distance(p.position)) < kGate * sigma;
   }
   if (points < kFewPoints) return std::nullopt;
   return double(on) / points;
@@ -140,6 +138,13 @@ std::vector<PlaneDecision> associate_planes(const Map& map, KeyframeId keyframe,
   decisions.reserve(seen.size());
   for (const SeenPlane& plane : seen) decisions.push_back(candidates.decide(plane));
   return decisions;
+}
+
+KnownPlane KnownPlane::transformed(const SE3& T_ba) const {
+  KnownPlane result = *this;
+  result.plane = plane.transformed(T_ba);
+  for (Eigen::Vector3d& corner : result.outline) corner = T_ba * corner;
+  return result;
 }
 
 const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPlane> known,
@@ -173,14 +178,12 @@ bool one_surface(const Map& map, PlaneId a, PlaneId b, double distance,
   // The points say, where there are some.
   const auto a_on_b = share_of_points_on(map, a, plane_b, options);
   const auto b_on_a = share_of_points_on(map, b, plane_a, options);
-  if (a_on_b && b_on_a) return *a_on_b > kMostPoints || *b_on_a > kMostPoints;
-  if (a_on_b || b_on_a) return (a_on_b ? *a_on_b : *b_on_a) > kMostPoints;
+  if (a_on_b || b_on_a) return std::max(a_on_b.value_or(0), b_on_a.value_or(0)) > kMostPoints;
   const double sigma_a = map.planes()[a].sigma_tilt, sigma_b = map.planes()[b].sigma_tilt;
   if (angle_between(plane_a, plane_b) > angle_gate(sigma_a, sigma_b, options)) return false;
   const Eigen::Vector3d middle_a = middle_of(outline_a), middle_b = middle_of(outline_b);
-  const double off = kGap * distance;
-  return std::abs(plane_a.signed_distance(middle_b)) <= off &&
-         std::abs(plane_b.signed_distance(middle_a)) <= off;
+  return std::abs(plane_a.signed_distance(middle_b)) <= margin &&
+         std::abs(plane_b.signed_distance(middle_a)) <= margin;
 }
 
 }  // namespace cairn

@@ -33,12 +33,15 @@ std::vector<PlaneDecision> associate_planes(const Map& map, KeyframeId keyframe,
                                             std::span<const SeenPlane> seen,
                                             const PlaneAssociationOptions& options);
 
-/// A plane of the map as a camera would see it, in the camera's frame.
+/// A plane of the map, in the frame of the camera that may see it.
 struct KnownPlane {
   PlaneId id;
   Plane plane;
   std::vector<Eigen::Vector3d> outline;
   double sigma_tilt = 0;  ///< of its normal, radians
+
+  /// From frame a to frame b.
+  KnownPlane transformed(const SE3& T_ba) const;
 };
 
 /// Of the planes that what was seen agrees with in normal and offset, and that it touches, the one

@@ -82,6 +82,12 @@ void Map::merge_points(PointId from, PointId into) {
   update_geometry(into);
 }
 
+double Map::viewing_distance(PointId id) const {
+  const MapPoint& point = points_[id];
+  const Keyframe& eye = keyframes_[point.observations.front().keyframe];
+  return (point.position - eye.T_wc.translation()).norm();
+}
+
 int Map::keypoint_of(PointId point, KeyframeId keyframe) const {
   for (const Observation& o : points_[point].observations) {
     if (o.keyframe == keyframe) return static_cast<int>(o.keypoint);

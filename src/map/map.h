@@ -84,6 +84,8 @@ class Map {
   /// `from` becomes `into`: observations move where the keyframe does not see `into` yet.
   void merge_points(PointId from, PointId into);
 
+  /// From the keyframe that saw a point first to the point.
+  double viewing_distance(PointId id) const;
   /// The keypoint by which a keyframe sees a point, or -1.
   int keypoint_of(PointId point, KeyframeId keyframe) const;
   /// Recomputes normal and base distance, or the descriptor, from the observations.

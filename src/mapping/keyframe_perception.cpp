@@ -132,10 +132,9 @@ PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePercepti
   result.points = static_cast<int>(logs.size());
   if (result.points < kMinScalePoints) return result;
   const double log_scale = median(logs);
-  for (double& value : logs) value = std::abs(value - log_scale);
   result.usable = true;
   result.scale = std::exp(log_scale);
-  result.log_error = 1.4826 * median(logs);  // σ of a normal distribution from its median deviation
+  result.log_error = robust_spread(std::move(logs));
   return result;
 }
 

@@ -25,16 +25,7 @@ double MetricScale::picture_scale() const {
 }
 
 double MetricScale::spread() const {
-  return logs_.size() < kFewPictures ? kFewSpread : deviation();
-}
-
-// 1.48 times the median deviation from the median: σ of a normal distribution.
-double MetricScale::deviation() const {
-  const double middle = -std::log(picture_scale());
-  std::vector<double> deviations;
-  deviations.reserve(logs_.size());
-  for (const double value : logs_) deviations.push_back(std::abs(value - middle));
-  return 1.4826 * median(deviations);
+  return logs_.size() < kFewPictures ? kFewSpread : robust_spread(logs_);
 }
 
 ScaleEstimate MetricScale::estimate() const {
@@ -42,7 +33,7 @@ ScaleEstimate MetricScale::estimate() const {
   ScaleEstimate estimate;
   estimate.how = sigma_ > 0 ? "predicted depth" : "measured depth";
   estimate.value = 1 / picture_scale();
-  estimate.sigma = std::hypot(sigma_, deviation() / std::sqrt(double(logs_.size())));
+  estimate.sigma = std::hypot(sigma_, robust_spread(logs_) / std::sqrt(double(logs_.size())));
   estimate.pictures = static_cast<int>(logs_.size());
   return estimate;
 }

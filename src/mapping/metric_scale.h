@@ -31,8 +31,6 @@ class MetricScale {
   ScaleEstimate estimate() const;
 
  private:
-  double deviation() const;
-
   double sigma_ = 0;          // the largest of all pictures
   std::vector<double> logs_;  // of metres a unit, as the detector has it
 };

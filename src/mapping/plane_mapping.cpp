@@ -118,11 +118,9 @@ double spread(const Map& map, PlaneId id) {
   for (const PointId p : map.planes()[id].points) {
     const MapPoint& point = map.points()[p];
     if (point.assumed) continue;
-    const Keyframe& eye = map.keyframes()[point.observations.front().keyframe];
-    off.push_back(std::abs(plane.signed_distance(point.position)) /
-                  (point.position - eye.T_wc.translation()).norm());
+    off.push_back(std::abs(plane.signed_distance(point.position)) / map.viewing_distance(p));
   }
-  return off.empty() ? 1 : 1.4826 * median(off);
+  return off.empty() ? 1 : robust_sigma(off);
 }
 
 bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
@@ -142,7 +140,7 @@ void cull_planes(Map& map, std::uint32_t now, const PlaneMappingOptions& options
   });
 }
 
-void update_tilts(Map& map, const PlaneMappingOptions& options) {
+void update_evidence(Map& map, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
     landmark.sigma_tilt = tilt_sigma(map, id, options);
     landmark.spread = spread(map, id);
@@ -274,7 +272,7 @@ double tilt_sigma(const Map& map, PlaneId id, const PlaneMappingOptions& options
 std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerception& seen,
                                 const DepthScale& scale, const PlaneMappingOptions& options) {
   const Keyframe& keyframe = map.keyframes()[id];
-  update_tilts(map, options);  // the map has been adjusted
+  update_evidence(map, options);  // the map has been adjusted
   std::vector<SeenPlane> planes, raw;
   const auto in_units = [](const SeenPlane& plane, double units, double sigma) {
     SeenPlane result = plane.scaled(units);
@@ -314,7 +312,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
     if (keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
     created.push_back(assume_point(map, id, i, scale.here * seen.depth[i]));
   }
-  update_tilts(map, options);
+  update_evidence(map, options);
   fuse_planes(map, options.association);
   cull_planes(map, keyframe.sequence, options);
   if (options.manhattan) relate_planes(map, options);
@@ -323,7 +321,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
 }
 
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
-  update_tilts(map, options);
+  update_evidence(map, options);
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     spdlog::debug("plane {} ({}): {} pictures, {} points, spread {:.4f}, tilt {:.1f} deg: {}",
                   int(id.slot), landmark.label(), landmark.sightings, landmark.points.size(),

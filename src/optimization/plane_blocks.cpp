@@ -20,12 +20,6 @@ constexpr std::size_t kMaxHeldPoints = 200;  // outside of the adjustment, that 
 constexpr int kPlaneGroup = 2, kHeldPoseGroup = 3, kHeldPointGroup = 4;
 constexpr double kRadians = std::numbers::pi / 180;
 
-double viewing_distance(const Map& map, PointId id) {
-  const MapPoint& p = map.points()[id];
-  const Keyframe& eye = map.keyframes()[p.observations.front().keyframe];
-  return (p.position - eye.T_wc.translation()).norm();
-}
-
 }  // namespace
 
 void PlaneBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
@@ -89,7 +83,7 @@ void PlaneBlocks::add_points(Entry& entry) {
   const double share = std::max(options_.point_on_plane.sigma, landmark.spread);
   std::vector<PointId> outside;
   const auto add_point = [&](PointId id, double* position) {
-    const double sigma = share * viewing_distance(map_, id);
+    const double sigma = share * map_.viewing_distance(id);
     add(std::make_unique<PointOnPlaneFactor>(sigma), losses_[1].get(),
         {reference, entry.values.data(), position});
   };

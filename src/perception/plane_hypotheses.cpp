@@ -152,7 +152,7 @@ bool describe(const OrganizedCloud& cloud, const GridRegion& region,
   const double count = double(relative.size());
   result.inlier_share = count / double(region.size());
   result.mean_depth /= count;
-  result.residual = 1.4826 * median(relative);
+  result.residual = robust_sigma(relative);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
       scatter / count - sum * sum.transpose() / (count * count), Eigen::EigenvaluesOnly);
   result.spread = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));

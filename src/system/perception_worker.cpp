@@ -35,7 +35,7 @@ std::vector<SeenPlane> PerceptionWorker::planes_now(std::shared_ptr<const Frame>
                                                     const PerceptionInput& input) {
   const std::unique_lock busy(detector_mutex_, std::try_to_lock);
   if (!busy) return {};
-  seen_now_ = summarize_perception(detector_->detect(input), std::move(frame), camera_, view_);
+  seen_now_ = see({std::move(frame), input});
   return seen_now_->planes;
 }
 
@@ -50,7 +50,6 @@ void PerceptionWorker::stop() {
 }
 
 KeyframePerception PerceptionWorker::see(const Task& task) {
-  const std::lock_guard busy(detector_mutex_);
   return summarize_perception(detector_->detect(task.input), task.frame, camera_, view_);
 }
 
@@ -63,7 +62,11 @@ void PerceptionWorker::loop() {
       if (stopping_) return;
       task = *std::exchange(waiting_, std::nullopt);
     }
-    deliver_(see(task));
+    KeyframePerception seen = [&] {
+      const std::lock_guard busy(detector_mutex_);
+      return see(task);
+    }();
+    deliver_(std::move(seen));
   }
 }
 

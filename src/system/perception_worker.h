@@ -14,10 +14,11 @@ namespace cairn {
 
 /// Looks at the pictures of keyframes: at once, within the call (lockstep), or on a thread of its
 /// own (realtime), where a picture that comes while another still waits takes its place: no one
-/// ever waits, and the newest is looked at.
+/// waits, and the newest is looked at. Only who asks for `planes_now` gets them within the call.
 class PerceptionWorker {
  public:
-  /// `deliver` is called with each result, in realtime from the worker's thread.
+  /// `deliver` is called with each result, in realtime from the worker's thread, or from the
+  /// caller's where `planes_now` has looked already.
   PerceptionWorker(std::unique_ptr<PlaneDetector> detector, const Camera& camera, const View& view,
                    bool threaded, std::function<void(KeyframePerception)> deliver);
   ~PerceptionWorker();
@@ -36,7 +37,7 @@ class PerceptionWorker {
     PerceptionInput input;
   };
   void loop();
-  KeyframePerception see(const Task& task);
+  KeyframePerception see(const Task& task);  // with the detector's mutex held, once threaded
 
   std::unique_ptr<PlaneDetector> detector_;
   Camera camera_;

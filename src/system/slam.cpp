@@ -67,7 +67,6 @@ struct Slam::Implementation {
   bool recover(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input,
                FrameRecord& record);
   void hand_over_keyframe();
-  void perceive(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input);
   void deliver(KeyframePerception seen);
   void restart();
   std::vector<FrameResult::Feature> seen_features(const Frame& frame, FrameState state) const;
@@ -178,7 +177,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   }
   if (record.keyframe) {
     const auto before = std::chrono::steady_clock::now();
-    s.perceive(frame, input);
+    if (s.perception) s.perception->look(frame, input);
     s.mapping->settle();
     mapping_ms += milliseconds_since(before);
   }
@@ -241,12 +240,7 @@ void Slam::Implementation::hand_over_keyframe() {
   frames_since_keyframe = 0;
 }
 
-void Slam::Implementation::perceive(const std::shared_ptr<const Frame>& frame,
-                                    const PerceptionInput& input) {
-  if (perception) perception->look(frame, input);
-}
-
-// In realtime from the worker's thread.
+// In realtime mostly from the worker's thread.
 void Slam::Implementation::deliver(KeyframePerception seen) {
   const std::lock_guard lock(mapping_mutex);
   if (mapping) mapping->join(std::move(seen));

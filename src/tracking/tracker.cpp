@@ -163,8 +163,8 @@ PoseSupport Tracker::support(const SE3& T_wc, double timestamp,
   std::vector<KnownPlane> known;
   for (const MapView::PlanePose& plane : map_->planes) {
     if (plane.sigma_tilt > kUnsureTilt) continue;
-    known.push_back({plane.id, plane.plane.transformed(T_cw), plane.outline, plane.sigma_tilt});
-    for (Eigen::Vector3d& corner : known.back().outline) corner = T_cw * corner;
+    known.push_back(
+        KnownPlane{plane.id, plane.plane, plane.outline, plane.sigma_tilt}.transformed(T_cw));
   }
   PoseSupport support;
   for (const SeenPlane& metric : planes) {
