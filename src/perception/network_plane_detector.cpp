@@ -17,6 +17,7 @@ std::vector<LabelledRegion> label_regions(const cv::Mat_<uchar>& labels,
   const auto found = connected_regions(
       labels.size(), least, [&](const cv::Point& p) { return !planar_labels[labels(p)].empty(); },
       [&](const cv::Point& a, const cv::Point& b) { return labels(a) == labels(b); });
+  regions.reserve(found.size());
   for (const GridRegion& pixels : found) {
     regions.push_back({pixels, planar_labels[labels(pixels.front())]});
   }

@@ -219,7 +219,8 @@ inline MapErrors errors_of(const Map& map, const PointWorld& world) {
   std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
   errors.median = distances[distances.size() / 2];
   map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
-    const SE3 moved = errors.to_world.move(k.T_wc), truth = world.truth(*k.frame);
+    const SE3 moved = errors.to_world.move(k.T_wc);
+    const SE3& truth = world.truth(*k.frame);
     errors.camera = std::max(errors.camera, (moved.translation() - truth.translation()).norm());
     errors.rotation_deg = std::max(errors.rotation_deg, rotation_error_deg(moved, truth));
   });

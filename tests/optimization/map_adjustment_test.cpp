@@ -17,6 +17,7 @@ using testing::Random;
 
 std::vector<SE3> walk(int count, double step) {
   std::vector<SE3> poses;
+  poses.reserve(count);
   for (int i = 0; i < count; ++i) poses.push_back(along(i * step));
   return poses;
 }
