@@ -18,11 +18,20 @@ class CalibrationReader {
   CalibrationReader(const std::filesystem::path& file, std::optional<cv::Size> size)
       : file_(file), size_(size) {}
 
-  Calibration read();
+  Calibration read() const;
+  DepthCalibration read_depth() const;
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
     throw Error(Error::Kind::kUsage, file_.string() + ": " + why);
+  }
+  template <typename Read>
+  auto reading(const Read& read) const {
+    try {
+      return read();
+    } catch (const YAML::Exception& e) {
+      refuse(std::string("a value has the wrong form (") + e.what() + ")");
+    }
   }
   YAML::Node load() const;
   YAML::Node camera_node(const YAML::Node& root) const;
@@ -33,6 +42,9 @@ class CalibrationReader {
   Camera::Model model(const YAML::Node& node) const;
   std::array<double, 5> distortion(const YAML::Node& node, Camera::Model model) const;
   cv::Size size(const YAML::Node& node) const;
+  Camera camera(const YAML::Node& node) const;
+  SE3 rigid(const std::vector<double>& values, const std::string& key) const;
+  DepthCalibration depth(const YAML::Node& root) const;
 
   std::filesystem::path file_;
   std::optional<cv::Size> size_;
@@ -190,32 +202,59 @@ cv::Size CalibrationReader::size(const YAML::Node& node) const {
   refuse("width and height are missing; give the size of the picture in pixels");
 }
 
-Calibration CalibrationReader::read() {
+Camera CalibrationReader::camera(const YAML::Node& node) const {
+  const Camera::Model kind = model(node);
+  const Pinhole pinhole = intrinsics(node);
+  const cv::Size picture = size(node);
+  const std::array<double, 5> lens = distortion(node, kind);
   try {
+    return Camera(kind, picture.width, picture.height, pinhole, lens);
+  } catch (const Error& e) {  // the camera does not know of the file
+    throw Error(e.kind(), file_.string() + ": " + e.what());
+  }
+}
+
+// A 4x4 matrix, row by row.
+SE3 CalibrationReader::rigid(const std::vector<double>& values, const std::string& key) const {
+  if (values.size() != 16) refuse(key + " must have sixteen numbers, a 4x4 matrix row by row");
+  const Eigen::Matrix4d T = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>(values.data());
+  const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
+  if (!(R * R.transpose()).isIdentity(1e-3) || !(R.determinant() > 0)) {
+    refuse(key + " must begin with a rotation; check its rows");
+  }
+  return SE3(R, T.topRightCorner<3, 1>());
+}
+
+DepthCalibration CalibrationReader::depth(const YAML::Node& root) const {
+  DepthCalibration result;
+  const YAML::Node node = root["depth"];
+  if (!node || !node.IsMap()) return result;
+  if (const auto scale = number(node, "scale")) result.scale = *scale;
+  if (!(result.scale > 0)) refuse("scale of depth must be positive: steps a metre, such as 5000");
+  if (find(node, "fx") || find(node, "intrinsics") || find(node, "camera_matrix")) {
+    result.camera = camera(node);
+  }
+  if (const auto T = numbers(node, "T_color_depth"); !T.empty()) {
+    result.T_color_depth = rigid(T, "T_color_depth");
+  }
+  return result;
+}
+
+Calibration CalibrationReader::read() const {
+  return reading([this] {
     const YAML::Node node = camera_node(load());
-    const Camera::Model kind = model(node);
     Calibration result;
-    const Pinhole pinhole = intrinsics(node);
-    const cv::Size picture = size(node);
-    try {
-      result.camera = Camera(kind, picture.width, picture.height, pinhole, distortion(node, kind));
-    } catch (const Error& e) {
-      // The camera does not know of the file; distortion() does, and needs no second name.
-      const std::string why = e.what();
-      if (why.starts_with(file_.string())) throw;
-      throw Error(e.kind(), file_.string() + ": " + why);
-    }
+    result.camera = camera(node);
     for (const char* key : {"fps", "rate_hz"}) {
       if (const auto fps = number(node, key); fps && *fps > 0) result.fps = *fps;
     }
-    if (const auto T = numbers(node, "T_BS"); T.size() == 16) {
-      const Eigen::Matrix4d M = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>(T.data());
-      result.T_bs = SE3(Eigen::Matrix3d(M.topLeftCorner<3, 3>()), M.topRightCorner<3, 1>());
-    }
+    if (const auto T = numbers(node, "T_BS"); T.size() == 16) result.T_bs = rigid(T, "T_BS");
     return result;
-  } catch (const YAML::Exception& e) {
-    refuse(std::string("a value has the wrong form (") + e.what() + ")");
-  }
+  });
+}
+
+DepthCalibration CalibrationReader::read_depth() const {
+  return reading([this] { return depth(load()); });
 }
 
 // KITTI's rows begin with "P0:".
@@ -255,6 +294,12 @@ Calibration read_calibration_file(const std::filesystem::path& file, std::option
                                          "give width and height");
   }
   return {read_kitti_calibration(file, "P0", *size), std::nullopt, std::nullopt};
+}
+
+DepthCalibration read_depth_calibration(const std::filesystem::path& file,
+                                        std::optional<cv::Size> size) {
+  if (is_kitti_calibration(file)) return {};
+  return CalibrationReader(file, size).read_depth();
 }
 
 Camera read_calibration(const std::filesystem::path& file, std::optional<cv::Size> size) {

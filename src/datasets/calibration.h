@@ -10,6 +10,14 @@
 
 namespace cairn {
 
+/// How depth was measured.
+struct DepthCalibration {
+  /// Of a depth camera that is not the colour camera; none: depth is in the pixels of the colour.
+  std::optional<Camera> camera{};
+  SE3 T_color_depth{};  ///< depth camera to colour camera, metres
+  double scale = 5000;  ///< steps of a depth picture a metre
+};
+
 /// What a calibration file says.
 struct Calibration {
   Camera camera;
@@ -27,6 +35,14 @@ struct Calibration {
 /// kUsage if a value in it cannot be used.
 Calibration read_calibration_file(const std::filesystem::path& file,
                                   std::optional<cv::Size> size = std::nullopt);
+
+/// Of the section `depth:` of cairn's own calibration.yaml; the default where there is none. Keys:
+/// `scale` (steps a metre); where depth has a camera of its own, the keys of `color:`, too, and
+/// `T_color_depth` (4x4, row by row, depth camera to colour camera, metres; without it the two are
+/// in one place). Throws as
+/// read_calibration_file.
+DepthCalibration read_depth_calibration(const std::filesystem::path& file,
+                                        std::optional<cv::Size> size = std::nullopt);
 
 /// The camera of read_calibration_file.
 Camera read_calibration(const std::filesystem::path& file,

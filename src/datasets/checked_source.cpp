@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cairn/datasets/picture_file.h"
+
 namespace cairn {
 namespace {
 
@@ -10,10 +12,6 @@ std::string in_seconds(double t) {
   char text[64];
   std::snprintf(text, sizeof text, "%.6f s", t);
   return text;
-}
-
-std::string in_pixels(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 }  // namespace
@@ -43,6 +41,7 @@ bool CheckedSource::next(SourceFrame& frame) {
     last_good_ = frame.timestamp;
   } else {
     frame.image.release();
+    frame.depth.release();
   }
   last_ = frame.timestamp;
   return true;

@@ -18,6 +18,11 @@ struct SourceFrame {
   std::string name;  ///< file name, or number in the video
   /// Not empty: why this frame cannot be used, with the name of the file; the image is empty then.
   std::string problem;
+  /// Measured, where that was asked for: CV_32F, metres along the optical axis, in the pixels of
+  /// the image, 0 where unknown. Else empty.
+  cv::Mat depth{};
+  /// Not empty: why there is no depth although it was asked for. The frame can be used without.
+  std::string depth_problem{};
 };
 
 /// A stream of frames. Not for concurrent use.

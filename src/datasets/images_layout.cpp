@@ -110,6 +110,7 @@ void find_calibration(const std::vector<fs::path>& folders, Listing& listing) {
       listing.calibration = [file](const cv::Size& size) {
         return read_calibration_file(file, size);
       };
+      listing.depth = [file](const cv::Size& size) { return read_depth_calibration(file, size); };
     }
   }
 }

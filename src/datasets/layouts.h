@@ -19,6 +19,8 @@ struct Listing {
   /// Reads the calibration of the layout for pictures of the given size; empty if it has none.
   std::function<Calibration(const cv::Size&)> calibration;
   std::string calibration_name;
+  /// Reads how depth is measured; empty where nothing says it.
+  std::function<DepthCalibration(const cv::Size&)> depth;
   std::optional<std::filesystem::path> groundtruth;
   std::vector<std::filesystem::path> more_groundtruth;
 };
@@ -31,6 +33,8 @@ bool is_kitti(const std::filesystem::path& folder);
 Listing list_tum(const std::filesystem::path& folder);
 Listing list_euroc(const std::filesystem::path& folder);
 Listing list_kitti(const std::filesystem::path& folder);
+/// The depth pictures of TUM's layout. Throws Error(kInput) if it has none.
+std::vector<ListedPicture> list_tum_depth(const std::filesystem::path& folder);
 /// A folder, or a glob whose last part has * or ?. `fps`: for names that are no times; 0: default.
 Listing list_images(const std::filesystem::path& folder_or_glob, double fps);
 

@@ -67,18 +67,8 @@ bool ends_in(const std::filesystem::path& file, std::span<const std::string_view
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-}  // namespace
-
-bool is_complete_picture(Bytes bytes) {
-  constexpr std::array<unsigned char, 4> kPng = {0x89, 'P', 'N', 'G'};
-  if (bytes.size() >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8) return is_complete_jpeg(bytes);
-  if (bytes.size() >= 4 && std::equal(kPng.begin(), kPng.end(), bytes.begin())) {
-    return is_complete_png(bytes);
-  }
-  return true;
-}
-
-cv::Mat read_picture(const std::filesystem::path& file, bool colour, std::string& problem) {
+// Picture files of any kind; `flags` of cv::imdecode.
+cv::Mat decode(const std::filesystem::path& file, int flags, std::string& problem) {
   problem.clear();
   std::error_code code;
   std::vector<unsigned char> bytes;
@@ -96,13 +86,39 @@ cv::Mat read_picture(const std::filesystem::path& file, bool colour, std::string
   if (!problem.empty()) return {};
   cv::Mat picture;
   try {
-    picture = cv::imdecode(bytes, (colour ? cv::IMREAD_ANYCOLOR : cv::IMREAD_GRAYSCALE) |
-                                      cv::IMREAD_IGNORE_ORIENTATION);
+    picture = cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     picture.release();
   }
   if (picture.empty()) problem = file.string() + ": this is not a picture that can be decoded";
   return picture;
+}
+
+}  // namespace
+
+bool is_complete_picture(Bytes bytes) {
+  constexpr std::array<unsigned char, 4> kPng = {0x89, 'P', 'N', 'G'};
+  if (bytes.size() >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8) return is_complete_jpeg(bytes);
+  if (bytes.size() >= 4 && std::equal(kPng.begin(), kPng.end(), bytes.begin())) {
+    return is_complete_png(bytes);
+  }
+  return true;
+}
+
+cv::Mat read_picture(const std::filesystem::path& file, bool colour, std::string& problem) {
+  return decode(file, colour ? cv::IMREAD_ANYCOLOR : cv::IMREAD_GRAYSCALE, problem);
+}
+
+cv::Mat read_depth_picture(const std::filesystem::path& file, std::string& problem) {
+  cv::Mat picture = decode(file, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, problem);
+  if (problem.empty() && picture.type() != CV_16UC1) {
+    problem = file.string() + ": this is no depth picture, which is grey with 16 bits";
+  }
+  return problem.empty() ? picture : cv::Mat();
+}
+
+std::string in_pixels(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 bool is_picture_name(const std::filesystem::path& file) {

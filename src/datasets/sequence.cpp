@@ -8,6 +8,7 @@
 #include "cairn/datasets/capture_source.h"
 #include "cairn/datasets/checked_source.h"
 #include "cairn/datasets/layouts.h"
+#include "cairn/datasets/measured_depth_source.h"
 #include "cairn/datasets/picture_file.h"
 #include "cairn/datasets/prefetching_source.h"
 #include "cairn/geometry/error.h"
@@ -97,12 +98,10 @@ std::optional<double> set_camera(const OpenOptions& options, const Listing& list
   }
   const cv::Size size(sequence.camera->width(), sequence.camera->height());
   if (size != sequence.size) {
-    const auto text = [](const cv::Size& s) {
-      return std::to_string(s.width) + "x" + std::to_string(s.height);
-    };
     throw Error(Error::Kind::kUsage, "calibration (" + sequence.calibration + "): it is for " +
-                                         text(size) + " pixels, but the pictures have " +
-                                         text(sequence.size) + "; give the one of these pictures");
+                                         in_pixels(size) + " pixels, but the pictures have " +
+                                         in_pixels(sequence.size) +
+                                         "; give the one of these pictures");
   }
   return fps;
 }
@@ -140,6 +139,27 @@ Listing list_folder(const std::string& what, const std::string& layout, double f
   return list_kitti(what);
 }
 
+// The same source, with depth.
+std::unique_ptr<FrameSource> with_depth(std::unique_ptr<FrameSource> source, const fs::path& folder,
+                                        const OpenOptions& options, const Listing& listing,
+                                        const Sequence& sequence) {
+  DepthCalibration calibration;
+  if (!options.calibration.empty()) {
+    calibration = read_depth_calibration(options.calibration, sequence.size);
+  } else if (listing.depth) {
+    calibration = listing.depth(sequence.size);
+  }
+  return std::make_unique<MeasuredDepthSource>(std::move(source), list_tum_depth(folder),
+                                               calibration, sequence.camera);
+}
+
+void check_depth(const std::string& what, const std::string& layout) {
+  if (layout == "tum") return;
+  throw Error(Error::Kind::kInput, what + ": the layout " + layout +
+                                       " has no measured depth, which was asked for; give a "
+                                       "sequence in TUM's layout, with depth.txt");
+}
+
 Sequence open_folder(const std::string& what, const std::string& layout,
                      const OpenOptions& options) {
   Listing listing = list_folder(what, layout, options.fps);
@@ -153,9 +173,10 @@ Sequence open_folder(const std::string& what, const std::string& layout,
   sequence.groundtruth = listing.groundtruth;
   sequence.more_groundtruth = listing.more_groundtruth;
   sequence.fps = fps_of(listing.pictures);
-  sequence.frames =
-      safe_source(std::make_unique<PictureListSource>(std::move(listing.pictures), options.colour),
-                  sequence.size, options.prefetch);
+  std::unique_ptr<FrameSource> frames =
+      std::make_unique<PictureListSource>(std::move(listing.pictures), options.colour);
+  if (options.depth) frames = with_depth(std::move(frames), what, options, listing, sequence);
+  sequence.frames = safe_source(std::move(frames), sequence.size, options.prefetch);
   return sequence;
 }
 
@@ -199,6 +220,7 @@ Sequence open_capture(const std::string& what, const std::string& layout,
 Sequence open_sequence(const std::string& what, const OpenOptions& options) {
   check_layout(options.layout);
   const std::string layout = options.layout == "auto" ? recognise(what) : options.layout;
+  if (options.depth) check_depth(what, layout);
   Sequence sequence = layout == "video" || layout == "camera" ? open_capture(what, layout, options)
                                                               : open_folder(what, layout, options);
   sequence.layout = layout;

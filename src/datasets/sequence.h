@@ -19,6 +19,7 @@ struct OpenOptions {
   std::optional<Camera> camera;       ///< in place of what the layout has
   std::filesystem::path calibration;  ///< a file in place of what the layout has
   std::string intrinsics;             ///< the text of --camera, in place of what the layout has
+  bool depth = false;                 ///< read measured depth, too; TUM's layout has it
   bool prefetch = true;               ///< decode one frame ahead, in a thread (never if live)
 };
 
@@ -38,7 +39,8 @@ struct Sequence {
 
 /// Opens a folder, a glob of pictures ("dir/*.png"), a video file or a camera ("camera:0").
 /// Throws Error: kInput if it is not there, is of no known layout or has not one usable picture;
-/// kUsage if an option or calibration value cannot be used.
+/// and if depth was asked for and is not there; kUsage if an option or calibration value cannot be
+/// used.
 Sequence open_sequence(const std::string& what, const OpenOptions& options = {});
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-// TUM RGB-D: rgb.txt lists "timestamp file", groundtruth.txt beside it.
+// TUM RGB-D: rgb.txt lists "timestamp file", depth.txt and groundtruth.txt beside it.
 #include <limits>
 
 #include "cairn/datasets/layouts.h"
@@ -29,6 +29,28 @@ std::optional<Camera> published_camera(const std::string& name, const cv::Size& 
   return std::nullopt;
 }
 
+// Lines of a time and a file in the folder of the list.
+std::vector<ListedPicture> read_list(const std::filesystem::path& list, const std::string& what) {
+  std::vector<ListedPicture> pictures;
+  for (const TextLine& line : read_text_lines(list, what, " \t")) {
+    ListedPicture picture;
+    const auto time = parse_number(line.fields[0]);
+    picture.timestamp = time.value_or(kNoTime);
+    std::string file;  // names may have spaces
+    for (std::size_t i = 1; i < line.fields.size(); ++i)
+      file += (i > 1 ? " " : "") + line.fields[i];
+    picture.file = file.empty() ? list : list.parent_path() / file;
+    if (!time) {
+      picture.problem =
+          at_line(list, line.number) + ": \"" + line.fields[0] + "\" is not a timestamp in seconds";
+    } else if (file.empty()) {
+      picture.problem = at_line(list, line.number) + ": no file name after the timestamp";
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
 }  // namespace
 
 bool is_tum(const std::filesystem::path& folder) {
@@ -39,22 +61,7 @@ Listing list_tum(const std::filesystem::path& folder) {
   const auto list = folder / "rgb.txt";
   Listing listing;
   listing.list = list.string();
-  for (const TextLine& line : read_text_lines(list, "the list of pictures", " \t")) {
-    ListedPicture picture;
-    const auto time = parse_number(line.fields[0]);
-    picture.timestamp = time.value_or(kNoTime);
-    std::string file;  // names may have spaces
-    for (std::size_t i = 1; i < line.fields.size(); ++i)
-      file += (i > 1 ? " " : "") + line.fields[i];
-    picture.file = file.empty() ? list : folder / file;
-    if (!time) {
-      picture.problem =
-          at_line(list, line.number) + ": \"" + line.fields[0] + "\" is not a timestamp in seconds";
-    } else if (file.empty()) {
-      picture.problem = at_line(list, line.number) + ": no file name after the timestamp";
-    }
-    listing.pictures.push_back(std::move(picture));
-  }
+  listing.pictures = read_list(list, "the list of pictures");
   find_calibration({folder}, listing);
   find_groundtruth({folder}, listing);
   const std::string name = std::filesystem::absolute(folder).lexically_normal().string();
@@ -71,6 +78,22 @@ Listing list_tum(const std::filesystem::path& folder) {
     };
   }
   return listing;
+}
+
+std::vector<ListedPicture> list_tum_depth(const std::filesystem::path& folder) {
+  const auto list = folder / "depth.txt";
+  if (!std::filesystem::is_regular_file(list)) {
+    throw Error(Error::Kind::kInput,
+                list.string() +
+                    ": this list of measured depth is missing, which was asked for; "
+                    "give a sequence of an RGB-D camera");
+  }
+  auto pictures = read_list(list, "the list of depth pictures");
+  if (pictures.empty()) {
+    throw Error(Error::Kind::kInput,
+                list.string() + ": no depth picture is listed; check that the file is complete");
+  }
+  return pictures;
 }
 
 }  // namespace cairn
