@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/imgproc.hpp>
 
 namespace cairn {
 namespace {
+
+constexpr float kJump = 0.05F;  // share of the depth, within a few pixels
 
 std::string problem_of(const cv::Mat& depth, const Camera& camera) {
   if (depth.empty()) return "there is no measured depth";
@@ -27,6 +30,18 @@ cv::Mat_<float> sampled(const cv::Mat_<float>& depth, const cv::Mat_<cv::Vec3f>&
       if (std::isfinite(z) && z > 0 && rays(v, u)[2] > 0) result(v, u) = z;
     }
   }
+  return result;
+}
+
+// Corners are often at the rim of a thing, and half of them fall on what is behind it: then depth
+// is always too large. Where it jumps it says nothing of a point.
+cv::Mat without_jumps(const cv::Mat& depth) {
+  const int reach = 2 * std::max(1, depth.cols / 200) + 1;
+  const cv::Mat around(reach, reach, CV_8U, cv::Scalar(1));
+  cv::Mat least, most, result = depth.clone();
+  cv::erode(depth, least, around);  // unknown depth, as in the shadow of a thing, is a jump, too
+  cv::dilate(depth, most, around);
+  result.setTo(0, ~(most < (1 + kJump) * least));
   return result;
 }
 
@@ -78,7 +93,7 @@ DetectedFrame RgbdPlaneDetector::detect(const PerceptionInput& input) {
   name_planes(input.bgr, planes);
   const cv::Size picture = input.bgr.empty() ? input.depth.size() : input.bgr.size();
   frame.planes = detected_planes(cloud, picture, planes, options_.hypothesis, options_.agreement);
-  frame.depth = cloud.depth;
+  frame.depth = without_jumps(input.depth);
   return frame;
 }
 

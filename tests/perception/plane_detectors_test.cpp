@@ -163,6 +163,20 @@ TEST(RgbdPlanes, AreNotOnASphere) {
   }
 }
 
+// Half of the corners at the rim of a thing fall on what is behind it.
+TEST(RgbdPlanes, ComeWithDepthThatSaysNothingWhereItJumps) {
+  cv::Mat_<float> depth(480, 640, 4.F);
+  depth(cv::Rect(200, 200, 100, 100)) = 2.F;
+  depth(cv::Rect(500, 0, 20, 480)) = 0.F;
+  const DetectedFrame frame = make_plane_detector("rgbd", kRoomCamera)->detect({{}, depth, 0});
+  ASSERT_EQ(frame.depth.size(), depth.size());
+  EXPECT_EQ(frame.depth.at<float>(250, 250), 2.F);
+  EXPECT_EQ(frame.depth.at<float>(100, 100), 4.F);
+  EXPECT_EQ(frame.depth.at<float>(250, 201), 0.F);
+  EXPECT_EQ(frame.depth.at<float>(250, 198), 0.F);
+  EXPECT_EQ(frame.depth.at<float>(250, 498), 0.F);
+}
+
 TEST(RgbdPlanes, NeedDepthOfThePicturesShape) {
   const auto detector = make_plane_detector("rgbd", kRoomCamera);
   EXPECT_THAT(detector->detect({}).problem, HasSubstr("no measured depth"));
