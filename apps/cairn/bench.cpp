@@ -26,7 +26,7 @@ constexpr int kWidePicture = 1000;  // pixels; wider ones get twice the features
 struct Arguments {
   std::string subject;
   std::vector<std::string> data;
-  std::string groundtruth;
+  std::string groundtruth, planes;
   int seeds = 1;
   bool json = false;
 };
@@ -173,19 +173,30 @@ Action add_bench(CLI::App& program) {
       ->add_option("--groundtruth", arguments->groundtruth,
                    "of landmarks: true poses in place of those of the sequence")
       ->type_name("FILE");
+  command
+      ->add_option("--planes", arguments->planes,
+                   "of landmarks: where planes of the sequences come from; default: recorded where "
+                   "there is a recording, else network")
+      ->check(CLI::IsMember({"network", "rgbd", "recorded"}));
   command->add_option("--seeds", arguments->seeds, "runs a sequence, each with another seed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "one JSON object in place of the table");
   return [arguments] {
-    const auto& [subject, data, groundtruth, seeds, json] = *arguments;
+    const auto& [subject, data, groundtruth, planes, seeds, json] = *arguments;
     remember_interrupts();
     if (!groundtruth.empty() && (subject != "landmarks" || data.size() != 1)) {
       throw Error(Error::Kind::kUsage,
                   "--groundtruth: is for `bench landmarks` of one sequence, --data PATH");
     }
+    if (!planes.empty() && (subject != "landmarks" || data.empty())) {
+      throw Error(
+          Error::Kind::kUsage,
+          "--planes: is for `bench landmarks` of sequences, --data PATH; those of synthetic "
+          "worlds are simulated");
+    }
     if (subject == "tracking") return bench_tracking(*arguments);
-    if (subject == "landmarks") return bench_landmarks(data, groundtruth, seeds, json);
+    if (subject == "landmarks") return bench_landmarks(data, groundtruth, planes, seeds, json);
     if (data.empty()) {
       throw Error(Error::Kind::kUsage, "bench memory: which sequence? Give --data PATH");
     }

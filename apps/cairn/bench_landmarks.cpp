@@ -110,7 +110,7 @@ void run_sets(FrameSource& frames, const Camera& camera, const Trajectory& truth
     times.push_back(frame.timestamp);
     for (const auto& slam : systems) {
       if (frame.problem.empty()) {
-        slam->process(frame.image, frame.timestamp);
+        slam->process(frame.image, frame.timestamp, frame.depth);
       } else {
         slam->skip(frame.timestamp);
       }
@@ -144,28 +144,27 @@ std::vector<Row> bench_world(SceneKind kind, const std::string& scene, int seeds
   return rows;
 }
 
-std::vector<Row> bench_data(const std::string& data, const std::string& groundtruth, int seeds,
-                            bool quiet) {
+std::vector<Row> bench_data(const std::string& data, const std::string& groundtruth,
+                            const std::string& planes, int seeds, bool quiet) {
   std::vector<Row> rows = new_rows(data);
-  const auto recorded = std::filesystem::path(data) / "perception.jsonl";
+  PlaneDetectorSources sources;
+  sources.recorded = std::filesystem::path(data) / "perception.jsonl";
+  const bool recorded = std::filesystem::exists(sources.recorded);
+  const std::string detector = !planes.empty() ? planes : recorded ? "recorded" : "network";
+  OpenOptions options;
+  options.depth = detector == "rgbd";
   for (int seed = 0; seed < seeds && !interrupted(); ++seed) {
-    const Sequence sequence = open_sequence(data);
+    const Sequence sequence = open_sequence(data, options);
     const Camera& camera = camera_of(sequence, data);
     if (groundtruth.empty() && !sequence.groundtruth) {
       throw Error(Error::Kind::kUsage, data + ": has no ground truth; give --groundtruth FILE");
     }
     const Trajectory truth =
         read_groundtruth(groundtruth.empty() ? sequence.groundtruth->string() : groundtruth);
-    PlaneDetectorSources sources;
-    sources.recorded = recorded;
     Progress progress(!quiet, sequence.frames->size());
     run_sets(
         *sequence.frames, camera, truth, std::uint64_t(seed),
-        [&] {
-          return make_plane_detector(std::filesystem::exists(recorded) ? "recorded" : "network",
-                                     camera, sources);
-        },
-        progress, rows);
+        [&] { return make_plane_detector(detector, camera, sources); }, progress, rows);
   }
   return rows;
 }
@@ -196,8 +195,8 @@ void print_table(const std::vector<Row>& rows) {
 
 }  // namespace
 
-int bench_landmarks(const std::vector<std::string>& data, const std::string& groundtruth, int seeds,
-                    bool json) {
+int bench_landmarks(const std::vector<std::string>& data, const std::string& groundtruth,
+                    const std::string& planes, int seeds, bool json) {
   std::vector<Row> rows;
   const auto add = [&](std::vector<Row> more) {
     rows.insert(rows.end(), std::make_move_iterator(more.begin()),
@@ -208,7 +207,9 @@ int bench_landmarks(const std::vector<std::string>& data, const std::string& gro
       add(bench_world(parse_scene_kind(scene), scene, seeds, json));
     }
   }
-  for (const std::string& sequence : data) add(bench_data(sequence, groundtruth, seeds, json));
+  for (const std::string& sequence : data) {
+    add(bench_data(sequence, groundtruth, planes, seeds, json));
+  }
   std::erase_if(rows, [](const Row& row) { return row.ate.empty(); });  // interrupted before
   if (json) {
     nlohmann::json object{{"subject", "landmarks"}, {"rows", nlohmann::json::array()}};

@@ -38,7 +38,10 @@ Playback play(FrameSource& source, Slam& slam, Pace pace, const FrameListener& l
       result.record = slam.frames().back();
       frame.image.release();
     } else {
-      result = slam.process(frame.image, frame.timestamp);
+      if (!frame.depth_problem.empty() && ++playback.without_depth == 1) {
+        playback.depth_problem = frame.depth_problem;
+      }
+      result = slam.process(frame.image, frame.timestamp, frame.depth);
     }
     listener(frame.image, result);
     if (paced) {

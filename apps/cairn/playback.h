@@ -11,11 +11,13 @@
 namespace cairn::app {
 
 struct Playback {
-  std::size_t frames = 0;   ///< taken from the source
-  std::size_t skipped = 0;  ///< could not be used
-  std::size_t dropped = 0;  ///< came too late
+  std::size_t frames = 0;         ///< taken from the source
+  std::size_t skipped = 0;        ///< could not be used
+  std::size_t dropped = 0;        ///< came too late
+  std::size_t without_depth = 0;  ///< had no measured depth although it was asked for
   bool interrupted = false;
   std::vector<std::string> problems;  ///< of the first skipped frames, a sentence each
+  std::string depth_problem;          ///< of the first frame without depth
 };
 
 /// Called after every frame; `image` is empty if the frame was skipped or dropped.

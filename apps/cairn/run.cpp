@@ -19,6 +19,8 @@
 namespace cairn::app {
 namespace {
 
+constexpr const char* kLabelsCard = "mosaic_ade20k31";
+
 struct Arguments {
   std::string sequence, layout = "auto", sensor = "mono", landmarks, planes, objects;
   std::string models, recorded, record, planenet;
@@ -41,10 +43,6 @@ void check_available(const Arguments& arguments) {
   if (arguments.landmarks == "full" || arguments.landmarks == "po") {
     refuse("--landmarks " + arguments.landmarks +
            ": this version maps no objects; give --landmarks points, pp or ppm");
-  }
-  if (arguments.planes == "rgbd") {
-    refuse(
-        "--planes rgbd: this version reads no measured depth; give --planes network or recorded");
   }
   if (!arguments.objects.empty() && arguments.objects != "none") {
     refuse("--objects " + arguments.objects +
@@ -70,7 +68,13 @@ Sequence open(const Arguments& arguments) {
   options.layout = arguments.layout;
   options.calibration = arguments.calibration;
   options.intrinsics = arguments.camera;
+  options.depth = arguments.planes == "rgbd";
   return open_sequence(arguments.sequence, options);
+}
+
+bool networks_known() {
+  const char* folder = std::getenv("CAIRN_MODELS");
+  return folder != nullptr && *folder != 0;
 }
 
 // The detector that was asked for. Where nobody asked: networks if somebody has said where they
@@ -94,8 +98,7 @@ std::unique_ptr<PlaneDetector> find_planes(const Arguments& arguments, const Cam
   // Networks that nobody asked for may be missing; anything else that is wrong is said.
   const bool asked =
       !arguments.planes.empty() || !arguments.landmarks.empty() || !arguments.models.empty();
-  const char* folder = std::getenv("CAIRN_MODELS");
-  if (!asked && (folder == nullptr || *folder == 0)) {
+  if (!asked && !networks_known()) {
     progress.note("no networks are given (--models, CAIRN_MODELS), so the map is of points alone");
     landmarks = Landmarks::kPoints;
     return nullptr;
@@ -106,6 +109,8 @@ std::unique_ptr<PlaneDetector> find_planes(const Arguments& arguments, const Cam
                          ? std::filesystem::path(arguments.sequence) / "perception.jsonl"
                          : std::filesystem::path(arguments.recorded);
   sources.planenet_card = arguments.planenet;
+  // Depth has no names; planes get some where there is a network that knows them.
+  if (!arguments.models.empty() || networks_known()) sources.labels_card = kLabelsCard;
   auto detector =
       make_plane_detector(arguments.planes.empty() ? "network" : arguments.planes, camera, sources);
   if (arguments.record.empty()) return detector;
@@ -132,6 +137,10 @@ void report_problems(const Playback& playback, Progress& progress) {
   if (playback.skipped > playback.problems.size()) {
     progress.note(std::to_string(playback.skipped - playback.problems.size()) +
                   " more frames were skipped; see frames.csv");
+  }
+  if (playback.without_depth > 0) {
+    progress.note(std::to_string(playback.without_depth) +
+                  " frames have no measured depth; the first: " + playback.depth_problem);
   }
   if (playback.dropped > 0) {
     progress.note(std::to_string(playback.dropped) +

@@ -59,7 +59,6 @@ TEST_F(CommandLine, WhatIsNotThereYetIsRefusedByName) {
   EXPECT_THAT(run_cairn("run x --sensor stereo"), fails(2, "--sensor mono"));
   EXPECT_THAT(run_cairn("run x --sensor rgbd"), fails(2, "--sensor mono"));
   EXPECT_THAT(run_cairn("run x --landmarks full"), fails(2, "--landmarks points"));
-  EXPECT_THAT(run_cairn("run x --planes rgbd"), fails(2, "--planes network"));
   EXPECT_THAT(run_cairn("run x --objects yolo"), fails(2, "--objects none"));
 }
 

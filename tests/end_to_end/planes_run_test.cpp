@@ -11,6 +11,7 @@ namespace cairn {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string content(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -19,12 +20,13 @@ std::string content(const std::string& file) {
   return text.str();
 }
 
-// A desk with what networks would say of it.
+// A desk with what networks would say of it, and with measured depth.
 class PlanesRun : public testing::Test {
  protected:
   void SetUp() override {
-    const Ran ran = run_cairn("synth " + sequence() +
-                              " --scene desk --frames 90 --samples 1 --no-blur --no-progress");
+    const Ran ran =
+        run_cairn("synth " + sequence() +
+                  " --scene desk --sensor rgbd --frames 90 --samples 1 --no-blur --no-progress");
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
   Ran run(const std::string& out, const std::string& arguments) {
@@ -64,6 +66,30 @@ TEST_F(PlanesRun, PutsTheTableIntoTheMapAndTheMapIntoMetres) {
   for (const char* file : {"trajectory.txt", "planes.json", "map.ply"}) {
     EXPECT_EQ(content((folder_ / "a/") + file), content((folder_ / "b/") + file)) << file;
   }
+}
+
+TEST_F(PlanesRun, TakesItsMetresAndItsPlanesFromMeasuredDepth) {
+  const std::string record = " --record-perception " + (folder_ / "seen.jsonl");
+  const Ran ran = run("a", "--landmarks pp --planes rgbd" + record);
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_THAT(ran.output, Not(HasSubstr("no measured depth")));
+  EXPECT_EQ(json("a/summary.json").at("scale").at("how"), "measured depth");
+  EXPECT_THAT(content(folder_ / "seen.jsonl"), HasSubstr("\"plane\""));
+  const Ran evaluated =
+      run_cairn("evaluate " + (folder_ / "a") + " --json --world " + sequence() + "/world.json");
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.output;
+  const nlohmann::json report = nlohmann::json::parse(evaluated.output);
+  EXPECT_NEAR(report.at("scale").get<double>(), 1, 0.02);
+  EXPECT_LT(report.at("ate").at("rmse").get<double>(), 0.01);
+  EXPECT_GE(report.at("planes").at("correct").get<int>(), 1);
+  EXPECT_LT(report.at("planes").at("angle_deg").get<double>(), 2);
+
+  std::filesystem::remove(sequence() + "/depth/1000.000000.png");
+  EXPECT_THAT(run("b", "--planes rgbd").output, HasSubstr("1 frames have no measured depth"));
+  std::filesystem::remove(sequence() + "/depth.txt");
+  const Ran missing = run("c", "--planes rgbd");
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.output, HasSubstr("depth.txt"));
 }
 
 TEST_F(PlanesRun, SetsOfLandmarksAreComparedInATable) {
