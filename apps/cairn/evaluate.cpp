@@ -11,6 +11,7 @@
 #include "cairn/geometry/error.h"
 #include "cairn/output/frames_csv.h"
 #include "commands.h"
+#include "evaluate_depth.h"
 
 namespace cairn::app {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string run, groundtruth, world, align = "sim3";
+  std::string run, groundtruth, world, depth, align = "sim3";
   EvaluationOptions options;
   WorldEvaluationOptions world_options;
   bool json = false;
@@ -49,6 +50,15 @@ std::vector<double> frame_times(const fs::path& run) {
   return fs::exists(file) ? read_frame_times(file) : std::vector<double>();
 }
 
+// What the run says of its own scale. A unit that nobody claims to be a metre cannot be wrong.
+void add_claims(const nlohmann::json& summary, EvaluationReport& report) {
+  const nlohmann::json scale = summary.value("scale", nlohmann::json());
+  if (!scale.is_object()) return;
+  if (scale.value("how", "") == "none") report.scale_error.reset();
+  const nlohmann::json sigma = scale.value("sigma", nlohmann::json());
+  if (sigma.is_number()) report.scale_sigma = sigma.get<double>();
+}
+
 int evaluate_run(const Arguments& arguments) {
   const fs::path run = arguments.run;
   if (!fs::exists(run)) {
@@ -62,31 +72,38 @@ int evaluate_run(const Arguments& arguments) {
     throw Error(Error::Kind::kUsage,
                 run.string() + ": a trajectory alone needs --groundtruth FILE");
   }
-  if (!folder && !arguments.world.empty()) {
-    throw Error(Error::Kind::kUsage, run.string() +
-                                         ": --world judges the objects and planes of a run; give "
-                                         "the folder that `cairn run` wrote");
+  if (!folder && (!arguments.world.empty() || !arguments.depth.empty())) {
+    throw Error(Error::Kind::kUsage,
+                run.string() + (arguments.world.empty() ? ": --depth" : ": --world") +
+                    " judges what a run mapped; give the folder that `cairn run` wrote");
   }
   const nlohmann::json summary = read_summary(run);
-  const std::string truth = find_groundtruth(arguments, summary);
+  const std::string truth_file = find_groundtruth(arguments, summary);
+  const Trajectory truth = read_groundtruth(truth_file);
   const Trajectory estimate = read_groundtruth(folder ? run / "trajectory.txt" : run, "tum");
   const auto times = folder ? frame_times(run) : std::vector<double>();
-  EvaluationReport report = evaluate(read_groundtruth(truth), estimate, options, times);
-  // A unit that nobody claims to be a metre cannot be wrong.
-  const nlohmann::json scale = summary.value("scale", nlohmann::json());
-  if (scale.is_object() && scale.value("how", "") == "none") report.scale_error.reset();
+  EvaluationReport report = evaluate(truth, estimate, options, times);
+  add_claims(summary, report);
   std::optional<WorldReport> world;
   if (!arguments.world.empty()) {
     WorldEvaluationOptions world_options = arguments.world_options;
     world_options.planes.min_visible_frames = world_options.objects.min_visible_frames;
     world = evaluate_world(arguments.world, run, report.alignment, world_options);
   }
+  std::optional<MeasuredPlaneReport> measured;
+  if (!arguments.depth.empty()) {
+    measured = evaluate_depth(arguments.depth,
+                              aligned(read_found_planes(run / "planes.json"), report.alignment),
+                              truth, options);
+  }
   if (arguments.json) {
     nlohmann::json json = to_json(report);
     if (world) json.update(to_json(*world));
+    if (measured) json.update(to_json(*measured));
     std::printf("%s\n", json.dump(2).c_str());
   } else {
-    std::printf("%s against %s\n%s", run.c_str(), truth.c_str(), to_table(report).c_str());
+    std::printf("%s against %s\n%s", run.c_str(), truth_file.c_str(), to_table(report).c_str());
+    if (measured) std::printf("%s", to_table(*measured).c_str());
     if (world) std::printf("%s", to_table(*world).c_str());
   }
   return kDone;
@@ -149,6 +166,12 @@ Action add_evaluate(CLI::App& program) {
   command
       ->add_option("--offset", arguments->options.offset, "seconds, added to the run's timestamps")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--depth", arguments->depth,
+          "the sequence of the run, of an RGB-D camera, to judge planes by measured depth; "
+          "true poses must be those of the colour camera")
+      ->type_name("SEQUENCE");
   add_world_options(*command, *arguments);
   command->add_flag("--json", arguments->json, "one JSON object in place of the table");
   return [arguments] { return evaluate_run(*arguments); };

@@ -29,7 +29,8 @@ struct EvaluationReport {
   /// |s − 1| with s the scale of the sim3 alignment, whichever was chosen; nothing where that is
   /// not determined.
   std::optional<double> scale_error;
-  ErrorStatistics ate;  ///< metres
+  std::optional<double> scale_sigma;  ///< relative, as the run itself says; evaluate() sets none
+  ErrorStatistics ate;                ///< metres
   RelativeError frame, second, metre;
   TrajectoryAlignment alignment;
   Trajectory truth;            ///< paired poses
@@ -49,8 +50,9 @@ EvaluationReport evaluate(const Trajectory& truth, const Trajectory& estimate,
 Alignment parse_alignment(const std::string& name);
 std::string to_string(Alignment alignment);
 
-/// The keys of the contract: pairs, coverage, scale, scale_error, ate.{rmse, median, max, mean},
-/// rpe.{frame, second, metre}.{translation, rotation_deg, pairs}. Null where there is no figure.
+/// The keys of the contract: pairs, coverage, scale, scale_error, scale_sigma, ate.{rmse, median,
+/// max, mean}, rpe.{frame, second, metre}.{translation, rotation_deg, pairs}. Null where there is
+/// no figure.
 nlohmann::json to_json(const EvaluationReport& report);
 
 /// A table for people.

@@ -34,5 +34,11 @@ std::vector<FoundPlane> read_found_planes(const std::filesystem::path& file);
 /// Into the world of the truth, by the alignment that the trajectory got.
 FoundObject aligned(const FoundObject& object, const TrajectoryAlignment& alignment);
 FoundPlane aligned(const FoundPlane& plane, const TrajectoryAlignment& alignment);
+template <typename Landmark>
+std::vector<Landmark> aligned(std::vector<Landmark> landmarks,
+                              const TrajectoryAlignment& alignment) {
+  for (Landmark& landmark : landmarks) landmark = aligned(landmark, alignment);
+  return landmarks;
+}
 
 }  // namespace cairn

@@ -39,6 +39,7 @@ nlohmann::json to_json(const EvaluationReport& report) {
           {"align", to_string(report.options.alignment)},
           {"scale", report.scale},
           {"scale_error", number(report.scale_error)},
+          {"scale_sigma", number(report.scale_sigma)},
           {"ate",
            {{"rmse", report.ate.rmse},
             {"median", report.ate.median},
@@ -60,7 +61,11 @@ std::string to_table(const EvaluationReport& report) {
                 : report.options.alignment == Alignment::kSE3 ? "se3 alignment: not fitted"
                                                               : "no alignment");
   if (report.scale_error) {
-    table += line("  scale error    %8.2f %%\n", 100 * *report.scale_error);
+    table += line("  scale error    %8.2f %%", 100 * *report.scale_error);
+    if (report.scale_sigma) {
+      table += line("  (the run's own sigma: %.2f %%)", 100 * *report.scale_sigma);
+    }
+    table += "\n";
   }
   table += line("  ATE RMSE       %8.4f m\n", report.ate.rmse);
   table += line("  ATE median     %8.4f m\n", report.ate.median);

@@ -24,13 +24,6 @@ std::string line(const char* name, const std::optional<double>& value, int decim
   return text;
 }
 
-template <typename Landmark>
-std::vector<Landmark> all_aligned(std::vector<Landmark> landmarks,
-                                  const TrajectoryAlignment& alignment) {
-  for (Landmark& landmark : landmarks) landmark = aligned(landmark, alignment);
-  return landmarks;
-}
-
 nlohmann::json objects_json(const ObjectMetrics& metrics) {
   return {{"found", metrics.found},
           {"missed", metrics.missed},
@@ -63,14 +56,14 @@ WorldReport evaluate_world(const fs::path& world, const fs::path& run,
   const WorldTruth truth = read_world(world);
   WorldReport report;
   if (const fs::path file = run / "objects.json"; fs::exists(file)) {
-    report.objects = object_metrics(truth.objects, all_aligned(read_found_objects(file), alignment),
+    report.objects = object_metrics(truth.objects, aligned(read_found_objects(file), alignment),
                                     options.objects);
   } else {
     report.notes.push_back(file.string() + " is not there, so objects are not judged");
   }
   if (const fs::path file = run / "planes.json"; fs::exists(file)) {
-    report.planes = plane_metrics(truth.planes, all_aligned(read_found_planes(file), alignment),
-                                  options.planes);
+    report.planes =
+        plane_metrics(truth.planes, aligned(read_found_planes(file), alignment), options.planes);
   } else {
     report.notes.push_back(file.string() + " is not there, so planes are not judged");
   }

@@ -75,10 +75,14 @@ TEST_F(PlanesRun, TakesItsMetresAndItsPlanesFromMeasuredDepth) {
   EXPECT_THAT(ran.output, Not(HasSubstr("no measured depth")));
   EXPECT_EQ(json("a/summary.json").at("scale").at("how"), "measured depth");
   EXPECT_THAT(content(folder_ / "seen.jsonl"), HasSubstr("\"plane\""));
-  const Ran evaluated =
-      run_cairn("evaluate " + (folder_ / "a") + " --json --world " + sequence() + "/world.json");
+  const Ran evaluated = run_cairn("evaluate " + (folder_ / "a") + " --json --world " + sequence() +
+                                  "/world.json --depth " + sequence());
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.output;
   const nlohmann::json report = nlohmann::json::parse(evaluated.output);
+  const nlohmann::json& measured = report.at("measured_planes");
+  EXPECT_GE(measured.at("measured").get<int>(), 1);
+  EXPECT_LT(measured.at("angle_deg").get<double>(), 2);
+  EXPECT_LT(measured.at("offset").get<double>(), 0.02);
   EXPECT_NEAR(report.at("scale").get<double>(), 1, 0.02);
   EXPECT_LT(report.at("ate").at("rmse").get<double>(), 0.01);
   EXPECT_GE(report.at("planes").at("correct").get<int>(), 1);
