@@ -24,7 +24,7 @@ constexpr const char* kLabelsCard = "mosaic_ade20k31";
 struct Arguments {
   std::string sequence, layout = "auto", sensor = "mono", landmarks, planes, objects;
   std::string models, recorded, record, planenet;
-  std::string pace, threads, seed, camera, calibration, config, out, groundtruth;
+  std::string pace, threads, seed, scale, camera, calibration, config, out, groundtruth;
   std::vector<std::string> settings;
   bool force = false, no_progress = false, video = false;
 };
@@ -60,6 +60,14 @@ Options read_options(const Arguments& arguments) {
   if (!arguments.threads.empty()) table.set("threads", arguments.threads);
   if (!arguments.seed.empty()) table.set("seed", arguments.seed);
   if (!arguments.landmarks.empty()) table.set("landmarks", arguments.landmarks);
+  if (!arguments.scale.empty()) {
+    table.set("scale", arguments.scale);
+    if (!(options.scale > 0)) {
+      refuse("--scale " + arguments.scale +
+             ": lengths cannot be multiplied by that; give a true length over the same length in "
+             "the results of a run without --scale");
+    }
+  }
   return options;
 }
 
@@ -239,6 +247,12 @@ void add_system_options(CLI::App& command, Arguments& a) {
   command.add_option("--threads", a.threads, "threads to work with; default: all cores")
       ->type_name("N");
   command.add_option("--seed", a.seed, "of all random choices; default: 0")->type_name("S");
+  command
+      .add_option("--scale", a.scale,
+                  "all lengths that come out are multiplied by it: a true length over the same one "
+                  "in the results without --scale, which are metres by predicted depth or, without "
+                  "planes, of a unit that is about the median depth of the first picture")
+      ->type_name("FACTOR");
   command.add_option("--config", a.config, "settings, as `cairn config` prints them")
       ->type_name("FILE");
   command.add_option("--set", a.settings, "one setting, repeatable; wins over --config")

@@ -147,12 +147,19 @@ RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& 
   summary.points = result.points.size();
   summary.planes = result.planes.size();
   summary.scale = {result.scale.how, result.scale.value,
-                   result.scale.known() ? std::optional(result.scale.sigma) : std::nullopt};
+                   result.scale.sigma > 0 ? std::optional(result.scale.sigma) : std::nullopt};
   summary.reprojection = {result.reprojection.median_px, result.reprojection.p75_px,
                           result.reprojection.p95_px, result.reprojection.observations};
   if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
   summary.problems = playback.problems;
   return summary;
+}
+
+void print_scale(const ScaleEstimate& scale) {
+  std::printf("  scale      %8.3f  metres a map unit, %s", scale.value,
+              scale.how == "given" ? "as given" : ("from " + scale.how).c_str());
+  if (scale.sigma > 0) std::printf(" (+- %.0f %%)", 100 * scale.sigma);
+  std::printf("\n");
 }
 
 }  // namespace
@@ -244,13 +251,8 @@ void print_outcome(const RunDescription& run, const std::vector<FrameRecord>& fr
   }
   std::printf("  keyframes  %8zu\n", result.keyframes.size());
   std::printf("  points     %8zu\n", result.points.size());
-  if (with_planes(run)) {
-    std::printf("  planes     %8zu\n", result.planes.size());
-    if (result.scale.known()) {
-      std::printf("  scale      %8.3f  metres a map unit, from %s (+- %.0f %%)\n",
-                  result.scale.value, result.scale.how.c_str(), 100 * result.scale.sigma);
-    }
-  }
+  if (with_planes(run)) std::printf("  planes     %8zu\n", result.planes.size());
+  if (result.scale.known()) print_scale(result.scale);
   if (total != stages.end()) {
     std::printf("  tracking   %8.1f  ms a frame (median), %.1f ms (95th percentile)\n",
                 total->second.median_ms, total->second.p95_ms);

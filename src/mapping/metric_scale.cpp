@@ -13,6 +13,10 @@ constexpr double kFewSpread = 0.15;
 
 }  // namespace
 
+ScaleEstimate given_scale(const ScaleEstimate& found, double factor) {
+  return {"given", factor * found.value, 0, found.pictures};
+}
+
 void MetricScale::add(double picture_scale, double sigma) {
   if (!std::isfinite(picture_scale) || !(picture_scale > 0)) return;
   logs_.push_back(-std::log(picture_scale));

@@ -15,6 +15,10 @@ struct ScaleEstimate {
   bool known() const { return how != "none"; }
 };
 
+/// The estimate after a user has measured: true lengths are `factor` (more than 0) times those that
+/// it gives. Of the error of that measurement nothing is known.
+ScaleEstimate given_scale(const ScaleEstimate& found, double factor);
+
 /// Collects what pictures say about the unit of the map.
 class MetricScale {
  public:

@@ -35,9 +35,9 @@ struct RunSummary {
     std::optional<double> recovered;  ///< seconds; none if never
   };
   struct Scale {
-    std::string how = "none";     ///< none (free), predicted depth, ...
+    std::string how = "none";     ///< none (free), predicted depth, given, ...
     double value = 1;             ///< metres a map unit
-    std::optional<double> sigma;  ///< of the value
+    std::optional<double> sigma;  ///< relative; none where nothing is known of it
   };
 
   struct Reprojection {

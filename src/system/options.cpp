@@ -12,6 +12,7 @@ OptionTable::OptionTable(Options& o) {
   add("landmarks", o.landmarks, {{"ppm", Landmarks::kPpm}, {"pp", Landmarks::kPp}, {"points", Landmarks::kPoints}}, "points; pp: points and planes; ppm: and parallel and perpendicular planes");
   add("threads", o.threads, "threads", {0, 1024}, "threads to work with; 0: all cores");
   add("seed", o.seed, "what all random choices are drawn from");
+  add("scale", o.scale, "", {0, 1e9}, "true lengths over those that come out without it; 0: not known");
 
   add("features.count", o.features.count, "keypoints", {0, 20000}, "keypoints a picture, about; 0: by its size, 1000 for each 640 pixels of width");
   add("features.levels", o.features.levels, "levels", {1, 16}, "levels of the image pyramid");

@@ -20,6 +20,7 @@ struct Options {
   Landmarks landmarks = Landmarks::kPpm;  ///< without a plane detector: points, whatever it says
   int threads = 0;                        ///< 0: all cores
   std::uint64_t seed = 0;
+  double scale = 0;  ///< true lengths over those of the result without it; 0: not known
   OrbOptions features = {.count = 0};  ///< count 0: by the size of the picture
   InitializerOptions initialization;
   TrackingOptions tracking;

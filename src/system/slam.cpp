@@ -314,6 +314,7 @@ SlamResult Slam::finish() {
   });
   result.planes = describe_planes(map);
   result.scale = mapper.scale();
+  if (s.options.scale > 0) result.scale = given_scale(result.scale, s.options.scale);
   if (result.scale.known()) to_metres(result);
   result.reprojection = reprojection_error(map);
   return result;

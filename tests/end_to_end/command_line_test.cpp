@@ -53,6 +53,10 @@ TEST_F(CommandLine, WrongOptions) {
   EXPECT_THAT(run_cairn("run x --pace slow"), fails(2, "realtime or lockstep"));
   EXPECT_THAT(run_cairn("run x --threads -1"), fails(2, "threads"));
   EXPECT_THAT(run_cairn("run x --seed many"), fails(2, "whole number"));
+  EXPECT_THAT(run_cairn("run x --scale 0"), fails(2, "give a true length over the same length"));
+  for (const char* wrong : {"=-1", "=-0.0", " nan", " inf", " 1e300", " 2,5", " far"}) {
+    EXPECT_THAT(run_cairn(std::string("run x --scale") + wrong), fails(2, "scale")) << wrong;
+  }
 }
 
 TEST_F(CommandLine, WhatIsNotThereYetIsRefusedByName) {

@@ -62,6 +62,10 @@ TEST_F(PlanesRun, PutsTheTableIntoTheMapAndTheMapIntoMetres) {
   EXPECT_LT(report.at("ate").at("rmse").get<double>(), 0.01);
   EXPECT_GE(report.at("planes").at("correct").get<int>(), 1);
 
+  ASSERT_EQ(run("given", "--landmarks points --scale 2.5").exit_code, 0);
+  EXPECT_EQ(json("given/summary.json").at("scale"),
+            (nlohmann::json{{"how", "given"}, {"value", 2.5}, {"sigma", nullptr}}));
+
   ASSERT_EQ(run("b", "--landmarks ppm --planes recorded --threads 2").exit_code, 0);
   for (const char* file : {"trajectory.txt", "planes.json", "map.ply"}) {
     EXPECT_EQ(content((folder_ / "a/") + file), content((folder_ / "b/") + file)) << file;

@@ -58,5 +58,19 @@ TEST(MetricScale, ItsSigmaIsThatOfTheLeastSurePicture) {
   EXPECT_NEAR(scale.estimate().sigma, 0.2, 1e-12);
 }
 
+TEST(MetricScale, WhatAUserHasMeasuredMultipliesWhatWasFoundAndHasNoSigma) {
+  const ScaleEstimate free = given_scale({}, 2.5);
+  EXPECT_TRUE(free.known());
+  EXPECT_EQ(free.how, "given");
+  EXPECT_EQ(free.value, 2.5);
+  EXPECT_EQ(free.sigma, 0);
+  MetricScale scale;
+  scale.add(0.5, 0.1);
+  const ScaleEstimate corrected = given_scale(scale.estimate(), 1.1);
+  EXPECT_EQ(corrected.how, "given");
+  EXPECT_NEAR(corrected.value, 2.2, 1e-12);
+  EXPECT_EQ(corrected.sigma, 0);
+}
+
 }  // namespace
 }  // namespace cairn

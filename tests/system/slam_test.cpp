@@ -158,6 +158,26 @@ TEST(Slam, InLockstepADetectorThatKnowsGivesTheFloorAndMetres) {
   EXPECT_NEAR(std::abs(result.planes[0].d), T_w0.translation().z(), 0.05);
 }
 
+TEST(Slam, AGivenScaleMultipliesAllLengths) {
+  const auto run = [](double factor) {
+    KnowingDetector::Record record;
+    Options options = lockstep(0);
+    options.scale = factor;
+    Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
+    for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+    return slam.finish();
+  };
+  const SlamResult found = run(0), given = run(1.25);
+  EXPECT_EQ(given.scale.how, "given");
+  EXPECT_EQ(given.scale.sigma, 0);
+  EXPECT_NEAR(given.scale.value, 1.25 * found.scale.value, 1e-12);
+  const auto last = [](const SlamResult& r) { return r.trajectory.back().T_wc.translation(); };
+  EXPECT_LT((last(given) - 1.25 * last(found)).norm(), 1e-12);
+  EXPECT_LT((given.points[0].position - 1.25 * found.points[0].position).norm(), 1e-12);
+  ASSERT_EQ(given.planes.size(), 1u);
+  EXPECT_NEAR(given.planes[0].d, 1.25 * found.planes[0].d, 1e-12);
+}
+
 TEST(Slam, TheWorldIsTheFirstKeyframe) {
   const Played one = play(lockstep(0));
   ASSERT_FALSE(one.result.keyframes.empty());
