@@ -180,7 +180,7 @@ int run(const Arguments& arguments, const std::string& typed) {
   const Playback playback = play(*sequence.frames, slam, description.options.pace,
                                  [&](const cv::Mat& image, const FrameResult& result) {
                                    progress.show(result.record);
-                                   recorder.add(image, result);
+                                   recorder.add(image, result, slam);
                                  });
   report_problems(playback, progress);
   if (playback.interrupted)

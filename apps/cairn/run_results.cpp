@@ -4,19 +4,17 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "cairn/evaluation/evaluation.h"
 #include "cairn/geometry/error.h"
 #include "cairn/output/atomic_file.h"
 #include "cairn/output/frames_csv.h"
+#include "cairn/output/label_colour.h"
 #include "cairn/output/map_ply.h"
-#include "cairn/output/overlay.h"
 #include "cairn/output/planes_json.h"
 #include "cairn/output/plots.h"
 #include "cairn/output/summary.h"
 #include "cairn/output/trajectory_file.h"
-#include "cairn/output/video_file.h"
 #include "cairn/system/option_table.h"
 
 namespace cairn::app {
@@ -42,13 +40,6 @@ nlohmann::json options_json(Options options) {
 
 bool with_planes(const RunDescription& run) { return run.options.landmarks != Landmarks::kPoints; }
 
-// Planes of one label have one colour.
-Rgb colour_of(const MappedPlane& plane, const SlamResult& result) {
-  std::set<std::string> labels;
-  for (const MappedPlane& other : result.planes) labels.insert(other.label);
-  return plane_colour(std::size_t(std::distance(labels.begin(), labels.find(plane.label))));
-}
-
 void write_map(const fs::path& file, const SlamResult& result) {
   Eigen::AlignedBox3d space;
   for (const StampedPose& pose : result.trajectory) space.extend(pose.T_wc.translation());
@@ -57,7 +48,7 @@ void write_map(const fs::path& file, const SlamResult& result) {
   PlyModel model;
   for (const auto& point : result.points) model.add_point(point.position, point.colour);
   for (const MappedPlane& plane : result.planes) {
-    model.add_polygon(plane.outline, colour_of(plane, result));
+    model.add_polygon(plane.outline, label_colour(plane.label));
   }
   model.add_path(result.trajectory, {230, 60, 40}, 0.002 * size);
   for (const StampedPose& pose : result.keyframes) {
@@ -102,7 +93,7 @@ PlotScene plot_scene(const RunDescription& run, const SlamResult& result,
   }
   scene.title = run.name;
   for (const MappedPlane& plane : result.planes) {
-    scene.planes.push_back({plane.outline, plane.label, colour_of(plane, result)});
+    scene.planes.push_back({plane.outline, plane.label, label_colour(plane.label)});
     for (Eigen::Vector3d& corner : scene.planes.back().outline) corner = align * corner;
   }
   scene.unit = report || result.scale.known() ? "m" : "map units";
@@ -164,56 +155,13 @@ void print_scale(const ScaleEstimate& scale) {
 
 }  // namespace
 
-// The annotated video, and a strip of stills of it for those who cannot play it.
-class RunRecorder::Film {
- public:
-  Film(const fs::path& folder, double fps) : folder_(folder), video_(folder / "video.mp4", fps) {}
-
-  void add(const cv::Mat& image, const FrameResult& result) {
-    FrameOverlay overlay;
-    for (const auto& f : result.features) overlay.features.push_back({f.x, f.y, f.mapped});
-    overlay.state = to_string(result.record.state);
-    overlay.matches = result.record.inliers;
-    overlay.fps = result.record.total_ms > 0 ? 1000 / result.record.total_ms : 0;
-    overlay.timestamp = result.record.timestamp;
-    const cv::Mat picture = draw_overlay(image, overlay);
-    video_.write(picture);
-    if (count_++ % stride_ != 0) return;
-    stills_.push_back(picture);
-    // Evenly spread over a film whose length is not known: each time there are too many, every
-    // other one goes.
-    if (stills_.size() < 2 * kStills) return;
-    for (std::size_t i = 0; i < kStills; ++i) stills_[i] = stills_[2 * i];
-    stills_.resize(kStills);
-    stride_ *= 2;
-  }
-
-  void finish() {
-    video_.finish();
-    if (stills_.empty()) return;
-    std::vector<cv::Mat> chosen;
-    const std::size_t n = std::min(kStills, stills_.size());
-    for (std::size_t i = 0; i < n; ++i) chosen.push_back(stills_[i * stills_.size() / n]);
-    write_strip(folder_ / "strip.jpg", chosen, 3);
-  }
-
- private:
-  static constexpr std::size_t kStills = 6;
-  fs::path folder_;
-  VideoFile video_;
-  std::vector<cv::Mat> stills_;
-  std::size_t count_ = 0, stride_ = 1;
-};
-
 RunRecorder::RunRecorder(const RunDescription& run, bool video, double fps)
     : run_(run),
       start_(std::chrono::steady_clock::now()),
-      film_(video ? std::make_unique<Film>(run.folder, fps) : nullptr) {}
+      film_(video ? std::make_unique<Film>(run.folder, run.camera, fps) : nullptr) {}
 
-RunRecorder::~RunRecorder() = default;
-
-void RunRecorder::add(const cv::Mat& image, const FrameResult& result) {
-  if (film_ && !image.empty()) film_->add(image, result);
+void RunRecorder::add(const cv::Mat& image, const FrameResult& result, const Slam& slam) {
+  if (film_ && !image.empty()) film_->add(image, result, slam.snapshot().get());
 }
 
 void RunRecorder::write(const std::vector<FrameRecord>& frames, const SlamResult& result,

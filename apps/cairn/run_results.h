@@ -10,6 +10,7 @@
 #include "cairn/geometry/camera.h"
 #include "cairn/geometry/trajectory.h"
 #include "cairn/system/slam.h"
+#include "film.h"
 #include "playback.h"
 
 namespace cairn::app {
@@ -35,16 +36,14 @@ class RunRecorder {
  public:
   /// `run` must outlive the recorder; `video`: also an annotated video, played at `fps`.
   RunRecorder(const RunDescription& run, bool video, double fps);
-  ~RunRecorder();
 
   /// For the annotated video; `image` is empty where the frame could not be used.
-  void add(const cv::Mat& image, const FrameResult& result);
+  void add(const cv::Mat& image, const FrameResult& result, const Slam& slam);
   /// All files. Throws Error(kOutput).
   void write(const std::vector<FrameRecord>& frames, const SlamResult& result,
              const Playback& playback);
 
  private:
-  class Film;
   const RunDescription& run_;
   std::chrono::steady_clock::time_point start_;
   std::unique_ptr<Film> film_;

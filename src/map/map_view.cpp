@@ -80,7 +80,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   }
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     view->planes.push_back({id, map.plane_in_world(id), landmark.label(), map.outline_in_world(id),
-                            landmark.sigma_tilt});
+                            landmark.sigma_tilt, landmark.confirmed});
   });
   std::sort(view->keyframes.begin(), view->keyframes.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -29,6 +29,7 @@ struct MapView {
     std::string label;
     std::vector<Eigen::Vector3d> outline;  ///< world
     double sigma_tilt = 0;                 ///< of its normal, radians
+    bool confirmed = false;
   };
 
   std::uint64_t version = 0;

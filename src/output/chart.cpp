@@ -149,6 +149,14 @@ void ChartPainter::paint_series(const ChartSeries& series) {
     const auto limited = [](double v) { return cvRound(std::clamp(v, -1e5, 1e5) * (1 << kShift)); };
     return cv::Point(limited(q.x), limited(q.y));
   };
+  if (series.filled) {
+    constexpr double kTint = 0.1;
+    std::vector<cv::Point> corners;
+    for (const cv::Point2d& p : series.points) corners.push_back(fixed(p));
+    cv::Mat tinted = inside.clone();
+    cv::fillPoly(tinted, corners, series.colour, cv::LINE_AA, kShift);
+    cv::addWeighted(tinted, kTint, inside, 1 - kTint, 0, inside);
+  }
   const int width = std::max(1, cvRound(series.width * kSuper));
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     if (!is_finite(series.points[i])) continue;

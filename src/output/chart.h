@@ -27,6 +27,7 @@ struct ChartSeries {
   double width = 2;                      ///< of the line, or diameter of a dot, in pixels
   std::vector<cv::Scalar> colours = {};  ///< of each dot, in place of `colour`
   bool end_markers = false;              ///< a ring at the first point, a dot at the last
+  bool filled = false;                   ///< a hint of the colour inside of a closed line
 };
 
 /// One pair of axes with what is drawn in it.

@@ -24,14 +24,6 @@ void append(std::string& bytes, Value value) {
 
 }  // namespace
 
-Rgb plane_colour(std::size_t kind) {
-  static const std::array<Rgb, 10> kPalette = {
-      Rgb(31, 119, 180),  Rgb(255, 127, 14), Rgb(44, 160, 44),   Rgb(214, 39, 40),
-      Rgb(148, 103, 189), Rgb(140, 86, 75),  Rgb(227, 119, 194), Rgb(188, 189, 34),
-      Rgb(23, 190, 207),  Rgb(127, 127, 127)};
-  return kPalette[kind % kPalette.size()];
-}
-
 void PlyModel::add_point(const Vector3d& position, const Rgb& colour) {
   vertices_.push_back({position.cast<float>(), colour});
 }

@@ -13,9 +13,6 @@ namespace cairn {
 /// Red, green, blue.
 using Rgb = Eigen::Matrix<unsigned char, 3, 1>;
 
-/// Of ten colours that are easily told apart, one for each kind of plane.
-Rgb plane_colour(std::size_t kind);
-
 /// A coloured model in the world frame, metres, for MeshLab, CloudCompare and Blender. Lines are
 /// drawn as rows of points, which all of them show.
 class PlyModel {

@@ -7,6 +7,7 @@
 #include "cairn/geometry/error.h"
 #include "cairn/output/atomic_file.h"
 #include "cairn/output/chart.h"
+#include "cairn/output/label_colour.h"
 #include "cairn/output/number_text.h"
 
 namespace cairn {
@@ -28,6 +29,50 @@ void draw_features(const std::vector<FrameOverlay::Feature>& features, double sc
   }
 }
 
+cv::Scalar colour_of(const std::string& label) {
+  const Rgb colour = label_colour(label);
+  return {double(colour.z()), double(colour.y()), double(colour.x())};
+}
+
+void draw_mask(const FrameOverlay::Mask& mask, double scale, cv::Mat& canvas) {
+  constexpr double kTint = 0.25;
+  const cv::Scalar colour = colour_of(mask.label);
+  cv::Mat tinted;
+  cv::addWeighted(canvas, 1 - kTint, cv::Mat(canvas.size(), CV_8UC3, colour), kTint, 0, tinted);
+  tinted.copyTo(canvas, mask.inside);
+  std::vector<std::vector<cv::Point>> borders;
+  cv::findContours(mask.inside, borders, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+  cv::drawContours(canvas, borders, -1, colour, std::max(1, cvRound(scale)), cv::LINE_AA);
+}
+
+void draw_outline(const FrameOverlay::Outline& outline, double scale, cv::Mat& canvas) {
+  std::vector<cv::Point> corners;
+  for (const cv::Point2f& c : outline.corners) corners.emplace_back(c * float(1 << kShift));
+  cv::polylines(canvas, corners, true, colour_of(outline.label), std::max(1, cvRound(1.4 * scale)),
+                cv::LINE_AA, kShift);
+}
+
+// The name of a surface where it is widest; nothing where it is too small for that.
+void draw_label(const FrameOverlay::Mask& mask, double scale, cv::Mat& canvas) {
+  cv::Mat framed, distance;
+  cv::copyMakeBorder(mask.inside, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::distanceTransform(framed, distance, cv::DIST_L2, 3);
+  double widest = 0;
+  cv::Point at;
+  cv::minMaxLoc(distance, nullptr, &widest, nullptr, &at);
+  if (widest < 14 * scale) return;
+  const double height = 0.42 * scale;
+  int base = 0;
+  const int thin = std::max(1, cvRound(scale));
+  const cv::Size box = cv::getTextSize(mask.label, cv::FONT_HERSHEY_SIMPLEX, height, thin, &base);
+  const int left = std::clamp(at.x - box.width / 2, 2, std::max(2, canvas.cols - box.width - 2));
+  const cv::Point corner(left, at.y + box.height / 2);
+  cv::putText(canvas, mask.label, corner, cv::FONT_HERSHEY_SIMPLEX, height, {38, 33, 30}, thin + 2,
+              cv::LINE_AA);
+  cv::putText(canvas, mask.label, corner, cv::FONT_HERSHEY_SIMPLEX, height,
+              0.5 * (colour_of(mask.label) + cv::Scalar::all(255)), thin, cv::LINE_AA);
+}
+
 cv::Scalar state_colour(const std::string& state) {
   if (state == "tracked") return colours::kMapped;
   if (state == "lost") return colours::kAccent;
@@ -47,7 +92,10 @@ cv::Mat draw_overlay(const cv::Mat& picture, const FrameOverlay& overlay) {
   } else {
     picture.copyTo(inside);
   }
+  for (const auto& mask : overlay.masks) draw_mask(mask, scale, inside);
+  for (const auto& outline : overlay.outlines) draw_outline(outline, scale, inside);
   draw_features(overlay.features, scale, inside);
+  for (const auto& mask : overlay.masks) draw_label(mask, scale, inside);
   const int middle = picture.rows + (size.height - picture.rows) / 2;
   const cv::Scalar colour = state_colour(overlay.state);
   cv::circle(canvas, {cvRound(16 * scale), middle}, cvRound(6 * scale), colour, cv::FILLED,

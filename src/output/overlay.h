@@ -13,6 +13,16 @@ struct FrameOverlay {
     float x = 0, y = 0;   ///< pixels
     bool mapped = false;  ///< belongs to a map point
   };
+  struct Mask {
+    std::string label;
+    cv::Mat inside;  ///< CV_8U, 255 inside, of the picture's size
+  };
+  struct Outline {
+    std::string label;
+    std::vector<cv::Point2f> corners;  ///< pixels, convex; see project_outline
+  };
+  std::vector<Mask> masks;        ///< of planes that are detected in this picture
+  std::vector<Outline> outlines;  ///< of planes of the map
   std::vector<Feature> features;
   std::string state;     ///< tracked, lost, ...
   int matches = 0;       ///< map points in this frame
@@ -20,9 +30,9 @@ struct FrameOverlay {
   double timestamp = 0;  ///< seconds
 };
 
-/// The picture (CV_8UC1 or CV_8UC3) in colour with the features (green: of the map, grey: others)
-/// and a bar below with state, matches, frame rate and time. CV_8UC3, higher by the bar; even
-/// sizes, as video codecs want.
+/// The picture (CV_8UC1 or CV_8UC3) in colour with the planes (in the colours of their labels;
+/// masks are tinted), the features (green: of the map, grey: others), and a bar below with state,
+/// matches, frame rate and time. CV_8UC3, higher by the bar; even sizes, as video codecs want.
 cv::Mat draw_overlay(const cv::Mat& picture, const FrameOverlay& overlay);
 
 /// Pictures of one size in rows of `columns`, each `width` pixels wide, as PNG or JPEG by the name.

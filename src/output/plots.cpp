@@ -134,6 +134,22 @@ void add_points(const PlotScene& scene, Chart& chart) {
   chart.series.push_back(std::move(dots));
 }
 
+void add_planes(const PlotScene& scene, Chart& chart) {
+  std::set<std::string> named;  // one entry a label in the legend
+  for (const PlotScene::PlaneOutline& plane : scene.planes) {
+    if (plane.outline.empty()) continue;
+    ChartSeries edge{named.insert(plane.label).second ? plane.label : "",
+                     {},
+                     cv::Scalar(plane.colour.z(), plane.colour.y(), plane.colour.x())};
+    for (const Vector3d& corner : plane.outline) {
+      edge.points.push_back(from_above(scene.view, corner));
+    }
+    edge.points.push_back(edge.points.front());
+    edge.filled = true;
+    chart.series.push_back(std::move(edge));
+  }
+}
+
 }  // namespace
 
 PlanView PlanView::z_up() {
@@ -197,19 +213,8 @@ cv::Mat draw_trajectory_plot(const PlotScene& scene) {
 cv::Mat draw_map_plot(const PlotScene& scene) {
   Chart chart = plan_chart(scene);
   chart.title = scene.title.empty() ? "Map from above" : "Map of " + scene.title + " from above";
+  add_planes(scene, chart);
   add_points(scene, chart);
-  std::set<std::string> named;  // one entry a label in the legend
-  for (const PlotScene::PlaneOutline& plane : scene.planes) {
-    if (plane.outline.empty()) continue;
-    ChartSeries edge{named.insert(plane.label).second ? plane.label : "",
-                     {},
-                     cv::Scalar(plane.colour.z(), plane.colour.y(), plane.colour.x())};
-    for (const Vector3d& corner : plane.outline) {
-      edge.points.push_back(from_above(scene.view, corner));
-    }
-    edge.points.push_back(edge.points.front());
-    chart.series.push_back(std::move(edge));
-  }
   ChartSeries path{"keyframes", {}, colours::kAccent};
   for (const StampedPose& pose : scene.keyframes) {
     path.points.push_back(from_above(scene.view, pose.T_wc.translation()));

@@ -1,7 +1,5 @@
 #include "cairn/system/perception_worker.h"
 
-#include <utility>
-
 namespace cairn {
 
 PerceptionWorker::PerceptionWorker(std::unique_ptr<PlaneDetector> detector, const Camera& camera,
@@ -19,7 +17,7 @@ void PerceptionWorker::look(std::shared_ptr<const Frame> frame, const Perception
     return;
   }
   if (!thread_.joinable()) {
-    deliver_(see({std::move(frame), input}));
+    deliver_(see({std::move(frame), input}, found_));
     return;
   }
   {
@@ -35,7 +33,7 @@ std::vector<SeenPlane> PerceptionWorker::planes_now(std::shared_ptr<const Frame>
                                                     const PerceptionInput& input) {
   const std::unique_lock busy(detector_mutex_, std::try_to_lock);
   if (!busy) return {};
-  seen_now_ = see({std::move(frame), input});
+  seen_now_ = see({std::move(frame), input}, found_);
   return seen_now_->planes;
 }
 
@@ -49,8 +47,11 @@ void PerceptionWorker::stop() {
   thread_.join();
 }
 
-KeyframePerception PerceptionWorker::see(const Task& task) {
-  return summarize_perception(detector_->detect(task.input), task.frame, camera_, view_);
+KeyframePerception PerceptionWorker::see(const Task& task, std::vector<DetectedPlane>& planes) {
+  DetectedFrame detected = detector_->detect(task.input);
+  KeyframePerception seen = summarize_perception(detected, task.frame, camera_, view_);
+  planes = std::move(detected.planes);
+  return seen;
 }
 
 void PerceptionWorker::loop() {
@@ -64,7 +65,8 @@ void PerceptionWorker::loop() {
     }
     KeyframePerception seen = [&] {
       const std::lock_guard busy(detector_mutex_);
-      return see(task);
+      std::vector<DetectedPlane> planes;  // of a picture that is gone
+      return see(task, planes);
     }();
     deliver_(std::move(seen));
   }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "cairn/mapping/keyframe_perception.h"
 #include "cairn/perception/plane_detector.h"
@@ -28,6 +29,8 @@ class PerceptionWorker {
   /// `look` is asked for the same frame afterwards, this is what it delivers.
   std::vector<SeenPlane> planes_now(std::shared_ptr<const Frame> frame,
                                     const PerceptionInput& input);
+  /// What was found within the calls since it was last asked, with its masks.
+  std::vector<DetectedPlane> take_planes() { return std::exchange(found_, {}); }
   /// Waits for what is being looked at; nothing is delivered afterwards.
   void stop();
 
@@ -37,7 +40,8 @@ class PerceptionWorker {
     PerceptionInput input;
   };
   void loop();
-  KeyframePerception see(const Task& task);  // with the detector's mutex held, once threaded
+  // With the detector's mutex held, once threaded; the planes with their masks go to `planes`.
+  KeyframePerception see(const Task& task, std::vector<DetectedPlane>& planes);
 
   std::unique_ptr<PlaneDetector> detector_;
   Camera camera_;
@@ -45,6 +49,7 @@ class PerceptionWorker {
   std::function<void(KeyframePerception)> deliver_;
   std::mutex detector_mutex_;
   std::optional<KeyframePerception> seen_now_;  // of the calling thread
+  std::vector<DetectedPlane> found_;            // of the calling thread
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;

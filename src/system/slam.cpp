@@ -183,6 +183,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   }
   record.total_ms = milliseconds_since(start) - mapping_ms;
   result.features = s.seen_features(*frame, record.state);
+  if (s.perception) result.planes = s.perception->take_planes();
   s.records.push_back(record);
   return result;
 }

@@ -29,6 +29,10 @@ struct FrameResult {
   FrameRecord record;
   std::optional<SE3> T_wc;        ///< live pose, camera to world, where the frame was tracked
   std::vector<Feature> features;  ///< what was seen, for overlays
+  /// What the plane detector saw in this very picture, with its masks, in the camera frame and the
+  /// detector's metres: in lockstep of keyframes. In realtime it mostly says so when the picture is
+  /// gone; then nothing is here.
+  std::vector<DetectedPlane> planes;
 };
 
 /// Distances between keypoints and the projections of their map points, pixels of the full picture.

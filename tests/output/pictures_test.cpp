@@ -7,6 +7,8 @@
 #include <random>
 
 #include "cairn/output/chart.h"
+#include "cairn/output/label_colour.h"
+#include "cairn/output/outline_projection.h"
 #include "cairn/output/overlay.h"
 #include "cairn/output/plots.h"
 #include "cairn/output/video_file.h"
@@ -122,6 +124,90 @@ TEST(WritePng, WritesAPictureThatReadsBack) {
   EXPECT_EQ(cv::norm(cv::imread((folder / "a.png").string()), test_picture(3)), 0);
   EXPECT_THAT(error_of(Error::Kind::kOutput, [&] { write_png(folder / "b.png", {}); }),
               HasSubstr("b.png"));
+}
+
+cv::Scalar bgr(const Rgb& colour) {
+  return {double(colour.z()), double(colour.y()), double(colour.x())};
+}
+
+TEST(LabelColour, IsOneForSurfacesThatAreAlikeAndAnotherForThoseThatAreNot) {
+  EXPECT_EQ(label_colour("floor"), label_colour("road"));
+  EXPECT_EQ(label_colour("plane"), label_colour("")) << "labels that nobody knows";
+  const std::vector<std::string> kinds = {"wall",    "floor", "ceiling", "table",
+                                          "cabinet", "door",  "anything"};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    for (std::size_t k = i + 1; k < kinds.size(); ++k) {
+      EXPECT_NE(label_colour(kinds[i]), label_colour(kinds[k])) << kinds[i] << ", " << kinds[k];
+    }
+  }
+}
+
+// A camera with a bent lens at the origin, and a rectangle across its axis.
+class ProjectedOutline : public testing::Test {
+ protected:
+  static std::vector<Eigen::Vector3d> rectangle(double half, double z) {
+    return {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+  }
+  const Camera camera{
+      Camera::Model::kRadialTangential, 640, 480, {500, 500, 319.5, 239.5}, {-0.2, 0.05}};
+};
+
+TEST_F(ProjectedOutline, GoesThroughItsCornersAndAlongItsEdges) {
+  const auto pixels = project_outline(rectangle(1, 4), SE3(), camera);
+  ASSERT_GT(pixels.size(), 4u);
+  for (const Eigen::Vector3d& x : std::vector<Eigen::Vector3d>{{1, 1, 4}, {1, 0, 4}, {-1, 1, 4}}) {
+    const Eigen::Vector2d at = camera.project(x);
+    double nearest = 1e9;
+    for (const cv::Point2f& p : pixels) {
+      nearest = std::min(nearest, std::hypot(p.x - at.x(), p.y - at.y()));
+    }
+    EXPECT_LT(nearest, 1e-3);
+  }
+}
+
+TEST_F(ProjectedOutline, IsCutJustOutsideOfThePicture) {
+  // A floor from behind the camera to far in front of it, and a wall that fills the picture.
+  const std::vector<Eigen::Vector3d> floor = {{-9, 1, -5}, {9, 1, -5}, {9, 1, 50}, {-9, 1, 50}};
+  for (const auto& outline : {floor, rectangle(100, 4)}) {
+    const auto pixels = project_outline(outline, SE3(), camera);
+    ASSERT_FALSE(pixels.empty());
+    for (const cv::Point2f& p : pixels) {
+      EXPECT_TRUE(std::abs(p.x - 320) < 400 && std::abs(p.y - 240) < 300) << p;
+      const bool inside = p.x > 0 && p.x < 639 && p.y > 0 && p.y < 479;
+      EXPECT_TRUE(!inside || outline == floor) << "no cut is seen: " << p;
+    }
+  }
+}
+
+TEST_F(ProjectedOutline, IsEmptyBehindTheCameraAndBesideThePicture) {
+  EXPECT_TRUE(project_outline(rectangle(1, -4), SE3(), camera).empty());
+  const SE3 aside(Eigen::Quaterniond::Identity(), {20, 0, 0});
+  EXPECT_TRUE(project_outline(rectangle(1, 4), aside, camera).empty());
+  EXPECT_TRUE(project_outline({}, SE3(), camera).empty());
+}
+
+TEST(Overlay, TintsMasksAndDrawsOutlinesInTheColoursOfTheirLabels) {
+  const cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(100, 100, 100));
+  FrameOverlay overlay;
+  overlay.masks.push_back({"floor", cv::Mat::zeros(480, 640, CV_8U)});
+  overlay.masks[0].inside.rowRange(300, 480).setTo(255);
+  overlay.outlines.push_back({"wall", {{100, 50}, {500, 50}, {500, 200}, {100, 200}}});
+  const cv::Mat drawn = draw_overlay(picture, overlay);
+  show("planes.png", drawn);
+  const cv::Vec3b floor = drawn.at<cv::Vec3b>(320, 20);
+  const Rgb orange = label_colour("floor");
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(floor[i], 0.75 * 100 + 0.25 * orange[2 - i], 2);
+  EXPECT_GT(drawn.at<cv::Vec3b>(50, 300)[0], 180) << "sky blue, smoothed";
+  EXPECT_EQ(drawn.at<cv::Vec3b>(120, 300), cv::Vec3b(100, 100, 100)) << "an outline is not filled";
+}
+
+TEST(Plots, ShowPlanesInTheColoursOfTheirLabels) {
+  PlotScene scene = room();
+  scene.planes.push_back(
+      {{{-3, 1, -2}, {3, 1, -2}, {3, 1, 2}, {-3, 1, 2}}, "floor", label_colour("floor")});
+  const cv::Mat plot = draw_map_plot(scene);
+  show("map_with_planes.png", plot);
+  EXPECT_GT(count_of(plot, bgr(label_colour("floor"))), 800);
 }
 
 TEST(Overlay, MarksFeaturesAndWritesTheState) {

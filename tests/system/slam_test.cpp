@@ -135,17 +135,26 @@ TEST(Slam, InRealtimePicturesAreLookedAtOnAThreadOfTheirOwn) {
   Options options;
   options.pace = Pace::kRealtime;
   Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
-  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  std::size_t masks = 0;
+  for (int i = 0; i < kFrames; ++i) masks += slam.process(pictures()[i], i / 30.0).planes.size();
   const SlamResult result = slam.finish();
   EXPECT_GT(result.trajectory.size(), kFrames / 2u) << result.refusal;
   ASSERT_EQ(record.threads.size(), 1u);
   EXPECT_NE(*record.threads.begin(), std::this_thread::get_id());
+  EXPECT_EQ(masks, 0u) << "they are of pictures that are gone";
 }
 
 TEST(Slam, InLockstepADetectorThatKnowsGivesTheFloorAndMetres) {
   KnowingDetector::Record record;
   Slam slam(scene().camera(), lockstep(0), std::make_unique<KnowingDetector>(record));
-  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  std::size_t masks = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const FrameResult frame = slam.process(pictures()[i], i / 30.0);
+    EXPECT_TRUE(frame.planes.empty() || frame.record.keyframe);
+    for (const DetectedPlane& plane : frame.planes)
+      masks += plane.mask.size() == cv::Size(640, 480);
+  }
+  EXPECT_GT(masks, 0u);
   const SlamResult result = slam.finish();
   EXPECT_EQ(record.threads, std::set{std::this_thread::get_id()});
   ASSERT_EQ(result.scale.how, "measured depth");
