@@ -21,7 +21,7 @@ constexpr double kBaseline = 0.54;  // metres, KITTI's
 constexpr int kCoarse = 4;          // of pictures that only tell what is visible
 
 struct Arguments {
-  std::string out, scene = "desk", sensor = "mono", truth = "all", perception = "simulated";
+  std::string out, scene = "desk", sensor = "mono", truth = "all", perception;
   int frames = -1, width = 640, height = 480, samples = 4;
   std::uint64_t seed = 0;
   double readout_ms = -1;  // the scene's
@@ -47,6 +47,18 @@ RenderOptions render_options(const Arguments& arguments, SceneKind kind) {
   return options;
 }
 
+// What networks would say, if it is wanted: beside the whole truth, or by name.
+std::optional<PerceptionSimulator> perception_of(const Arguments& arguments, const World& world,
+                                                 const Camera& camera) {
+  const std::string kind = !arguments.perception.empty() ? arguments.perception
+                           : arguments.truth == "all"    ? "simulated"
+                                                         : "none";
+  if (kind == "none") return std::nullopt;
+  return std::optional<PerceptionSimulator>(
+      std::in_place, world.scene(), camera,
+      kind == "exact" ? PerceptionNoise::none() : PerceptionNoise(), arguments.seed);
+}
+
 // Returns how many frames are rendered: all, if it was not interrupted.
 int render_frames(const Arguments& arguments, const World& world, const Camera& camera, int frames,
                   SequenceFolder& folder, VisibilityCount& visible) {
@@ -57,19 +69,13 @@ int render_frames(const Arguments& arguments, const World& world, const Camera& 
   const bool all = arguments.truth == "all", deep = sensor == SynthSensor::kRgbd;
   const Camera coarse = camera.resized(std::max(16, camera.width() / kCoarse),
                                        std::max(16, camera.height() / kCoarse));
-  std::optional<PerceptionSimulator> perception;
-  if (all && arguments.perception != "none") {
-    perception.emplace(
-        world.scene(), camera,
-        arguments.perception == "exact" ? PerceptionNoise::none() : PerceptionNoise(),
-        arguments.seed);
-  }
+  std::optional<PerceptionSimulator> perception = perception_of(arguments, world, camera);
   Progress progress(!arguments.no_progress, std::size_t(frames));
   for (int i = 0; i < frames; ++i) {
     if (interrupted()) return i;
     const double t = i / world.scene().fps;
     const SE3 T_wc = world.scene().path(t);
-    const bool whole = all || deep;
+    const bool whole = all || deep || perception;
     const FrameTruth truth = world.truth(whole ? camera : coarse, T_wc);
     visible.add(truth, whole ? 1 : kCoarse * kCoarse);
     folder.add(T_wc, world.render(camera, t, options),
@@ -162,11 +168,11 @@ Action add_synth(CLI::App& program) {
       ->check(CLI::IsMember({"all", "poses"}))
       ->capture_default_str();
   command
-      ->add_option("--perception", arguments->perception,
-                   "perception.jsonl, with --truth all. simulated: what networks would say, with "
-                   "their errors; exact: the truth; none: no such file")
-      ->check(CLI::IsMember({"simulated", "exact", "none"}))
-      ->capture_default_str();
+      ->add_option(
+          "--perception", arguments->perception,
+          "perception.jsonl. simulated: what networks would say, with their errors; exact: "
+          "the truth; none: no such file. Default: simulated with --truth all, else none")
+      ->check(CLI::IsMember({"simulated", "exact", "none"}));
   add_switches(*command, *arguments);
   command->add_flag("--no-progress", arguments->no_progress, "no progress bar");
   command->add_flag("--force", arguments->force, "write into a folder that is not empty");

@@ -71,6 +71,20 @@ TEST_F(Synth, ExactPerceptionIsTheTruth) {
   }
 }
 
+TEST_F(Synth, PerceptionNeedsNoPicturesOfTheTruth) {
+  ASSERT_EQ(synth("--scene desk --frames 2 --seed 1").exit_code, 0);
+  const auto beside_truth = lines("perception.jsonl");
+  fs::remove_all(out());
+  ASSERT_EQ(synth("--scene desk --frames 2 --seed 1 --truth poses").exit_code, 0);
+  EXPECT_FALSE(has("perception.jsonl"));
+  fs::remove_all(out());
+  const Ran ran = synth("--scene desk --frames 2 --seed 1 --truth poses --perception simulated");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_EQ(lines("perception.jsonl"), beside_truth);
+  EXPECT_FALSE(has("truth.jsonl"));
+  EXPECT_FALSE(has("depth"));
+}
+
 TEST_F(Synth, RefusesWhatItCannotDoInOneSentence) {
   EXPECT_EQ(synth("--frames 0").exit_code, 2);
   const Ran attic = synth("--scene attic");
