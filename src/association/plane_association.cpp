@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +13,7 @@ constexpr double kGate = 3;     // σ
 constexpr double kGap = 0.1;    // between outlines that touch, as a share of the viewing distance
 constexpr int kFewPoints = 10;  // fewer say little of a plane
 constexpr double kMostPoints = 0.7;     // of one plane on another, that make the two one
+constexpr double kAsGood = 0.7;         // of the points on what is seen, on what is known
 constexpr double kLeastOffset = 0.015;  // share of the distance: surfaces are not flat
 
 // How far apart two views of one surface may be, from how sure both are.
@@ -83,30 +83,41 @@ class Candidates {
   }
 
   PlaneDecision decide(const SeenPlane& seen) const {
-    std::map<PlaneId, int> shared;
-    for (const std::uint32_t keypoint : seen.keypoints) {
-      const PointId point = keyframe_.points[keypoint];
-      if (!point.valid()) continue;
-      const PlaneId plane = map_.points()[point].plane;
-      if (plane.valid()) ++shared[plane];
+    const std::vector<Eigen::Vector3d> points = points_in(seen);
+    const KnownPlane* best = nullptr;
+    int most = 0;
+    for (const KnownPlane& known : known_) {
+      if (!nearly_agree(seen, known, options_)) continue;
+      const int count = count_on(known.plane, points);
+      if (count <= most) continue;
+      most = count;
+      best = &known;
     }
-    const auto most =
-        std::max_element(shared.begin(), shared.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    const int count = most == shared.end() ? 0 : most->second;
-    if (count >= options_.th_high) {
-      const auto known = std::find_if(known_.begin(), known_.end(),
-                                      [&](const KnownPlane& k) { return k.id == most->first; });
-      if (nearly_agree(seen, *known, options_)) return {PlaneDecision::Kind::kKnown, most->first};
-    }
+    // A surface that is known explains the points as well as one that is fitted to them.
+    const bool explained = most >= kAsGood * count_on(seen.plane, points);
+    if (most >= options_.th_high && explained) return {PlaneDecision::Kind::kKnown, best->id};
     // Few keypoints, or those of a surface in front of this one: where it lies decides.
     const KnownPlane* nearest = nearest_surface(seen, known_, options_);
     if (nearest != nullptr) return {PlaneDecision::Kind::kKnown, nearest->id};
-    return {count < options_.th_low ? PlaneDecision::Kind::kNew : PlaneDecision::Kind::kUnclear,
-            {}};
+    return {most < options_.th_low ? PlaneDecision::Kind::kNew : PlaneDecision::Kind::kUnclear, {}};
   }
 
  private:
+  std::vector<Eigen::Vector3d> points_in(const SeenPlane& seen) const {
+    const SE3 T_kw = keyframe_.T_wc.inverse();
+    std::vector<Eigen::Vector3d> points;
+    for (const std::uint32_t keypoint : seen.inner) {
+      const MapPoint* point = map_.points().find(keyframe_.points[keypoint]);
+      if (point != nullptr && !point->assumed) points.push_back(T_kw * point->position);
+    }
+    return points;
+  }
+  int count_on(const Plane& plane, const std::vector<Eigen::Vector3d>& points) const {
+    return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const auto& p) {
+      return std::abs(plane.signed_distance(p)) < kGate * options_.point_sigma * p.norm();
+    }));
+  }
+
   const Map& map_;
   const Keyframe& keyframe_;
   PlaneAssociationOptions options_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace cairn {
 
@@ -14,6 +15,10 @@ KeyframeId Map::add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc
   newest_ = keyframes_.insert(std::move(keyframe));
   if (!first_.valid()) first_ = newest_;
   return newest_;
+}
+
+double stretched_depth(double depth, double mean, double contrast) {
+  return mean > 0 && depth > 0 ? mean * std::pow(depth / mean, contrast) : depth;
 }
 
 void Map::erase_keyframe(KeyframeId id) {

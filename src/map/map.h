@@ -21,6 +21,7 @@ struct Keyframe {
   std::vector<PointId> points;  ///< one a keypoint; invalid where there is none
   /// What a network predicts, one a keypoint, metres, 0: unknown; empty where none has looked.
   std::vector<float> depth = {};
+  double mean_depth = 0;         ///< of the whole picture as predicted, geometric; 0: unknown
   double sigma_depth = 0;        ///< of its logarithm at one keypoint
   double sigma_depth_scale = 0;  ///< of the logarithm that all its keypoints share
 
@@ -46,6 +47,10 @@ struct MapPoint {
   bool assumed = false;  ///< its depth is that of its plane: no two views have measured it yet
 };
 
+/// Networks predict depths nearer to a picture's mean than they are: predicted depth with the range
+/// of its logarithms, from that of the mean, times `contrast`. As it is where no mean is known.
+double stretched_depth(double depth, double mean, double contrast);
+
 /// Keyframes, points and planes with their observations. Owned and changed by the mapper alone.
 class Map {
  public:
@@ -54,6 +59,8 @@ class Map {
   const View& view() const { return view_; }
   /// Units of the map a metre of the plane detector; 0 while nothing is known of it.
   double units_a_metre = 0;
+  /// By how much predicted depths are to be stretched (see stretched_depth).
+  double depth_contrast = 1;
   /// What the calibration got wrong, as far as it was estimated. Nothing until the full adjustment:
   /// tracking and mapping work with the calibration as given.
   LensCorrection& lens() { return lens_; }
@@ -96,6 +103,11 @@ class Map {
   PlaneId add_plane(KeyframeId keyframe, const SeenPlane& seen);
   /// The keyframe saw a plane of the map: one more observation, votes and outline.
   void observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen);
+  /// Points that are inside of the masks of a plane three times of five, at least; at a mask's rim,
+  /// where what stands in front is likely, only if `rim`.
+  std::vector<PointId> points_in_masks(PlaneId id, bool rim) const;
+  /// Draws the outline anew from what all keyframes saw of the plane.
+  void update_outline(PlaneId id);
   /// Points whose depth it gave go with it.
   void erase_plane(PlaneId id);
   /// Says that a point lies on a plane, or (invalid id) on none.
@@ -119,6 +131,8 @@ class Map {
 
  private:
   void move_planes(KeyframeId from, KeyframeId to);
+  std::vector<Eigen::Vector3d> outline_of(const PlaneLandmark& landmark,
+                                          const PlaneObservation& o) const;
 
   View view_;
   LensCorrection lens_;

@@ -8,8 +8,23 @@ namespace cairn {
 namespace {
 
 PlaneObservation observation_of(KeyframeId keyframe, const SeenPlane& seen) {
-  return {keyframe, seen.plane.facing_origin().normal(), seen.centroid, seen.sigma_angle,
-          seen.sigma_offset};
+  PlaneObservation o{keyframe, seen.plane.facing_origin().normal(), seen.centroid, seen.sigma_angle,
+                     seen.sigma_offset};
+  o.corners = seen.outline;
+  o.keypoints = seen.keypoints;
+  o.inner = seen.inner;
+  return o;
+}
+
+template <class VotesOf>
+void count_votes(const Keyframe& keyframe, const PlaneObservation& o, VotesOf&& votes_of) {
+  if (o.keypoints.empty()) return;  // it stands for one that is gone
+  std::vector<int MaskVotes::*> where(keyframe.points.size(), &MaskVotes::outside);
+  for (const std::uint32_t i : o.keypoints) where[i] = &MaskVotes::rim;
+  for (const std::uint32_t i : o.inner) where[i] = &MaskVotes::inside;
+  for (std::size_t i = 0; i < where.size(); ++i) {
+    if (keyframe.points[i].valid()) ++(votes_of(keyframe.points[i]).*where[i]);
+  }
 }
 
 }  // namespace
@@ -26,15 +41,45 @@ PlaneId Map::add_plane(KeyframeId keyframe, const SeenPlane& seen) {
 void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) {
   PlaneLandmark& landmark = planes_[id];
   landmark.votes[seen.label] += seen.score;
-  // A picture may show it in several parts.
   const std::uint32_t now = keyframes_[keyframe].sequence;
   landmark.sightings += landmark.sightings == 0 || now != landmark.last_seen;
   landmark.last_seen = std::max(landmark.last_seen, now);
-  const SE3 T_rk = keyframes_[landmark.reference].T_wc.inverse() * keyframes_[keyframe].T_wc;
-  std::vector<Eigen::Vector3d> corners = landmark.outline;
-  for (const Eigen::Vector3d& corner : seen.outline) corners.push_back(T_rk * corner);
-  landmark.outline = convex_outline(landmark.plane, corners);
-  if (!landmark.seen_by(keyframe)) landmark.observations.push_back(observation_of(keyframe, seen));
+  landmark.add(observation_of(keyframe, seen));
+  update_outline(id);
+}
+
+// The plane is better known than what one picture says of it, and a pixel's ray better than its
+// depth: so the corners of all pictures are put onto the plane anew.
+void Map::update_outline(PlaneId id) {
+  PlaneLandmark& landmark = planes_[id];
+  std::vector<std::vector<Eigen::Vector3d>> outlines = landmark.buried_outlines;
+  for (const PlaneObservation& o : landmark.observations)
+    outlines.push_back(outline_of(landmark, o));
+  std::vector<Eigen::Vector3d> outline = common_outline(landmark.plane, outlines);
+  if (outline.size() > 2) landmark.outline = std::move(outline);
+}
+
+// What one observation shows of a plane, in the reference's frame.
+std::vector<Eigen::Vector3d> Map::outline_of(const PlaneLandmark& landmark,
+                                             const PlaneObservation& o) const {
+  const SE3 T_rk = keyframes_[landmark.reference].T_wc.inverse() * keyframes_[o.keyframe].T_wc;
+  auto corners = moved_along_rays(o.corners, landmark.plane.transformed(T_rk.inverse()));
+  for (Eigen::Vector3d& corner : corners) corner = T_rk * corner;
+  return corners;
+}
+
+std::vector<PointId> Map::points_in_masks(PlaneId id, bool rim) const {
+  const PlaneLandmark& landmark = planes_[id];
+  std::map<PointId, MaskVotes> votes = landmark.buried_votes;
+  for (const PlaneObservation& o : landmark.observations) {
+    count_votes(keyframes_[o.keyframe], o, [&](PointId p) -> MaskVotes& { return votes[p]; });
+  }
+  std::vector<PointId> points;
+  for (const auto& [p, v] : votes) {
+    const int inside = v.inside + (rim ? v.rim : 0);
+    if (2 * inside > 3 * v.outside && points_.contains(p)) points.push_back(p);
+  }
+  return points;
 }
 
 void Map::erase_plane(PlaneId id) {
@@ -58,16 +103,20 @@ void Map::set_plane_of(PointId point, PlaneId plane) {
 void Map::merge_planes(PlaneId from, PlaneId into) {
   const PlaneLandmark moved = planes_[from];
   PlaneLandmark& target = planes_[into];
-  const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
   for (const auto& [label, votes] : moved.votes) target.votes[label] += votes;
   target.sightings = std::max(target.sightings, moved.sightings);  // many of them are the same
   target.last_seen = std::max(target.last_seen, moved.last_seen);
-  for (const PlaneObservation& o : moved.observations) {
-    if (!target.seen_by(o.keyframe)) target.observations.push_back(o);
+  for (const PlaneObservation& o : moved.observations) target.add(o);
+  const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
+  for (auto outline : moved.buried_outlines) {
+    for (Eigen::Vector3d& corner : outline) corner = T_rf * corner;
+    target.buried_outlines.push_back(std::move(outline));
   }
-  std::vector<Eigen::Vector3d> corners = target.outline;
-  for (const Eigen::Vector3d& corner : moved.outline) corners.push_back(T_rf * corner);
-  target.outline = convex_outline(target.plane, corners);
+  for (const auto& [point, votes] : moved.buried_votes) {
+    MaskVotes& sum = target.buried_votes[point];
+    sum = {sum.inside + votes.inside, sum.rim + votes.rim, sum.outside + votes.outside};
+  }
+  update_outline(into);
   for (const PointId point : moved.points) set_plane_of(point, into);
   erase_plane(from);
 }
@@ -89,15 +138,21 @@ std::vector<Eigen::Vector3d> Map::outline_in_world(PlaneId id) const {
 void Map::move_planes(KeyframeId from, KeyframeId to) {
   const SE3 T_tf = to.valid() ? keyframes_[to].T_wc.inverse() * keyframes_[from].T_wc : SE3();
   planes_.for_each([&](PlaneId id, PlaneLandmark& landmark) {
-    const bool to_sees = landmark.seen_by(to);
-    std::erase_if(landmark.observations, [&](const PlaneObservation& o) {
-      return o.keyframe == from && (to_sees || !to.valid());
-    });
-    for (PlaneObservation& o : landmark.observations) {
-      if (o.keyframe != from) continue;
+    const auto seen = std::find_if(landmark.observations.begin(), landmark.observations.end(),
+                                   [&](const PlaneObservation& o) { return o.keyframe == from; });
+    if (seen != landmark.observations.end()) {
+      PlaneObservation o = std::move(*seen);
+      landmark.observations.erase(seen);
+      landmark.buried_outlines.push_back(outline_of(landmark, o));
       o.keyframe = to;
       o.normal = T_tf.rotation() * o.normal;
       o.centroid = T_tf * o.centroid;
+      count_votes(keyframes_[from], o,
+                  [&](PointId p) -> MaskVotes& { return landmark.buried_votes[p]; });
+      o.corners.clear();
+      o.keypoints.clear();
+      o.inner.clear();
+      if (to.valid()) landmark.add(o);
     }
     if (landmark.reference != from) return;
     if (to.valid()) {

@@ -1,8 +1,25 @@
 #include "cairn/map/plane_landmark.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "cairn/geometry/median.h"
 
 namespace cairn {
+namespace {
+
+constexpr int kDirections = 24;      // in which the extent of an outline is asked
+constexpr double kMaxStretch = 2.5;  // depth of a corner over the median of all
+
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+}  // namespace
 
 const std::string& PlaneLandmark::label() const {
   static const std::string kNone;
@@ -25,6 +42,55 @@ bool PlaneLandmark::seen_by(KeyframeId keyframe) const {
                      [&](const PlaneObservation& o) { return o.keyframe == keyframe; });
 }
 
+void PlaneLandmark::add(const PlaneObservation& o) {
+  for (PlaneObservation& known : observations) {
+    if (known.keyframe != o.keyframe) continue;
+    append(known.corners, o.corners);
+    append(known.keypoints, o.keypoints);
+    append(known.inner, o.inner);
+    return;
+  }
+  observations.push_back(o);
+}
+
+std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>& corners,
+                                              const Plane& plane) {
+  std::vector<Eigen::Vector3d> moved;
+  std::vector<double> depths;
+  for (const Eigen::Vector3d& corner : corners) {
+    const auto factor = plane.depth_along(corner);
+    if (!factor) continue;
+    moved.push_back(*factor * corner);
+    depths.push_back(moved.back().z());
+  }
+  if (moved.empty()) return moved;
+  const double most = kMaxStretch * median(depths);
+  std::erase_if(moved, [&](const Eigen::Vector3d& corner) { return corner.z() > most; });
+  return moved;
+}
+
+std::vector<Eigen::Vector3d> common_outline(
+    const Plane& plane, const std::vector<std::vector<Eigen::Vector3d>>& outlines) {
+  const Eigen::Vector3d u = plane.normal().unitOrthogonal(), v = plane.normal().cross(u);
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto& outline : outlines) append(corners, outline);
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
+    const Eigen::Vector3d direction = std::cos(angle) * u + std::sin(angle) * v;
+    std::vector<double> reaches;
+    for (const auto& outline : outlines) {
+      double reach = -std::numeric_limits<double>::infinity();
+      for (const Eigen::Vector3d& c : outline) reach = std::max(reach, direction.dot(c));
+      if (!outline.empty()) reaches.push_back(reach);
+    }
+    if (reaches.empty()) break;
+    const auto widest = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 20);
+    std::nth_element(reaches.begin(), widest, reaches.end(), std::greater<>());
+    std::erase_if(corners, [&](const Eigen::Vector3d& c) { return direction.dot(c) > *widest; });
+  }
+  return convex_outline(plane, corners);
+}
+
 Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& corner : outline) sum += corner;
@@ -35,6 +101,9 @@ void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& 
   landmark.reference = reference;
   landmark.plane = landmark.plane.transformed(T_nr);
   for (Eigen::Vector3d& corner : landmark.outline) corner = T_nr * corner;
+  for (auto& outline : landmark.buried_outlines) {
+    for (Eigen::Vector3d& corner : outline) corner = T_nr * corner;
+  }
 }
 
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,

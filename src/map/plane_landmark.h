@@ -19,6 +19,7 @@ struct SeenPlane {
   std::string label;
   double score = 1;                      ///< 0 to 1
   std::vector<std::uint32_t> keypoints;  ///< of the keyframe, inside the mask
+  std::vector<std::uint32_t> inner;      ///< those of them that are far from its rim
   std::vector<Eigen::Vector3d> outline;  ///< corners of the seen part, in order, on the plane
 
   /// Where all lengths are multiplied by `factor`.
@@ -32,6 +33,14 @@ struct PlaneObservation {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< keyframe's frame, on the seen plane
   double sigma_angle = 0.05;                           ///< radians
   double sigma_offset = 0.05;                          ///< units of the map
+  std::vector<Eigen::Vector3d> corners = {};  ///< keyframe's frame; their rays tell, not how far
+  std::vector<std::uint32_t> keypoints = {}, inner = {};  ///< as in SeenPlane
+};
+
+/// How often a point was well inside of a plane's mask, at its rim, and outside of it, in pictures
+/// that show both.
+struct MaskVotes {
+  int inside = 0, rim = 0, outside = 0;
 };
 
 /// A plane of the map, relative to the keyframe that saw it first (the paper, section III.B).
@@ -41,17 +50,26 @@ struct PlaneLandmark {
   std::map<std::string, double> votes = {};         ///< for each label: sum of scores
   std::vector<PlaneObservation> observations = {};  ///< one a keyframe, in order of arrival
   std::vector<PointId> points = {};                 ///< map points that lie on it
-  std::vector<Eigen::Vector3d> outline = {};        ///< convex, in the reference's frame
-  std::uint32_t sightings = 0;                      ///< pictures that showed it, ever
-  std::uint32_t last_seen = 0;                      ///< sequence number of the newest of them
+  // What keyframes saw that are gone: points in masks; outlines, in the reference's frame.
+  std::map<PointId, MaskVotes> buried_votes = {};
+  std::vector<std::vector<Eigen::Vector3d>> buried_outlines = {};
+  std::vector<Eigen::Vector3d> outline = {};  ///< convex, in the reference's frame
+  std::uint32_t sightings = 0;                ///< pictures that showed it, ever
+  std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
   // Evidence, kept by mapping.
   double sigma_tilt = 3.2;  ///< of its normal, radians
+  double share = 0;         ///< of the points in its masks that lie on it
+  double detected = 0;      ///< share of the keyframes that see its points in which it was detected
   /// How far its points lie off it, robustly (1.48 times the median), as a share of their viewing
   /// distance: surfaces are not flat, and things lie on them.
   double spread = 1;
+  /// What its observations are worth: pictures that follow each other err alike.
+  double independent = 1;
   bool confirmed = false;  ///< enough pictures, and enough points that pile up on it
 
   bool seen_by(KeyframeId keyframe) const;
+  /// One observation a keyframe: what more it sees of the plane only widens the first.
+  void add(const PlaneObservation& o);
   /// The label that most pictures gave it; of equal ones the first by name.
   const std::string& label() const;
 };
@@ -63,6 +81,16 @@ void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& 
 /// chain), counter-clockwise seen from the side that the normal points to.
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,
                                             const std::vector<Eigen::Vector3d>& points);
+
+/// Corners seen from the origin, each moved along its ray onto the plane. Left out are those whose
+/// rays miss it or graze it far beyond the others.
+std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>& corners,
+                                              const Plane& plane);
+
+/// The outline of a plane that many pictures show: convex, around all their outlines but for what
+/// only the widest twentieth of them shows in some direction.
+std::vector<Eigen::Vector3d> common_outline(
+    const Plane& plane, const std::vector<std::vector<Eigen::Vector3d>>& outlines);
 
 /// The mean of an outline's corners; the origin where there are none.
 Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline);

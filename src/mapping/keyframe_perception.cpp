@@ -10,10 +10,14 @@ namespace cairn {
 namespace {
 
 constexpr int kMinScalePoints = 15;
+constexpr double kGate = 3;            // σ
 constexpr double kMinGrazing = 0.05;   // cosine between ray and normal: flatter says nothing
 constexpr double kMaxStretch = 2.5;    // depth of a corner over that of the centroid
 constexpr double kLeastSigma = 0.002;  // no surface is flatter: radians, and share of the distance
 constexpr double kOutlineError = 4.0;  // pixels that a simplified outline may be off
+// Masks are ragged by 1.25 % of the root of their area (docs/perception_noise.md), and keypoints of
+// what stands in front lie somewhat beside it: within twice that they may belong to either.
+constexpr double kRim = 0.025;
 
 // Where the ray of a pixel meets a plane; nothing behind the camera or along the plane.
 std::optional<Eigen::Vector3d> meet(const Plane& plane, const Eigen::Vector3d& ray) {
@@ -62,6 +66,17 @@ void find_extent(const cv::Mat& mask, const Camera& camera, SeenPlane& plane) {
   }
 }
 
+double geometric_mean(const cv::Mat_<float>& depth) {
+  double sum = 0;
+  int count = 0;
+  for (const float d : depth) {
+    if (!(d > 0) || !std::isfinite(d)) continue;
+    sum += std::log(d);
+    ++count;
+  }
+  return count > 0 ? std::exp(sum / count) : 0;
+}
+
 std::optional<SeenPlane> look_at(const DetectedPlane& detected, const Camera& camera,
                                  const std::vector<cv::Point>& pixels) {
   const double norm = detected.plane.head<3>().norm();
@@ -79,8 +94,12 @@ std::optional<SeenPlane> look_at(const DetectedPlane& detected, const Camera& ca
   if (!std::isfinite(detected.sigma_angle + detected.sigma_depth)) return std::nullopt;
   seen.sigma_angle = std::max(detected.sigma_angle, kLeastSigma);
   seen.sigma_offset = std::max(detected.sigma_depth, kLeastSigma) * seen.centroid.norm();
+  cv::Mat_<float> inside;
+  cv::distanceTransform(detected.mask, inside, cv::DIST_L2, 3);
+  const double rim = kRim * std::sqrt(cv::countNonZero(detected.mask));
   for (std::uint32_t i = 0; i < pixels.size(); ++i) {
-    if (detected.mask.at<unsigned char>(pixels[i]) != 0) seen.keypoints.push_back(i);
+    if (inside(pixels[i]) > 0) seen.keypoints.push_back(i);
+    if (inside(pixels[i]) > rim) seen.inner.push_back(i);
   }
   return seen;
 }
@@ -94,6 +113,7 @@ KeyframePerception summarize_perception(const DetectedFrame& detected,
   summary.sigma_scale = detected.sigma_scale;
   summary.depth.assign(frame->size(), 0);
   if (detected.depth.type() == CV_32F && !detected.depth.empty()) {
+    summary.mean_depth = geometric_mean(detected.depth);
     const auto pixels = pixels_in_picture(*frame, camera, view, detected.depth.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const float depth = detected.depth.at<float>(pixels[i]);
@@ -117,16 +137,23 @@ KeyframePerception summarize_perception(const DetectedFrame& detected,
   return summary;
 }
 
-PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePerception& seen) {
+PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePerception& seen,
+                           double contrast) {
   const Keyframe& keyframe = map.keyframes()[id];
   const SE3 T_cw = keyframe.T_wc.inverse();
+  struct Pair {
+    double mapped, predicted, log_scale;
+  };
+  std::vector<Pair> pairs;
   std::vector<double> logs;
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     if (!keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
     const MapPoint& point = map.points()[keyframe.points[i]];
-    if (point.assumed) continue;
     const double depth = (T_cw * point.position).z();
-    if (depth > 0) logs.push_back(std::log(depth / seen.depth[i]));
+    if (point.assumed || !(depth > 0)) continue;
+    const double stretched = stretched_depth(seen.depth[i], seen.mean_depth, contrast);
+    logs.push_back(std::log(depth / stretched));
+    pairs.push_back({std::log(depth), std::log(seen.depth[i]), logs.back()});
   }
   PictureScale result;
   result.points = static_cast<int>(logs.size());
@@ -135,6 +162,22 @@ PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePercepti
   result.usable = true;
   result.scale = std::exp(log_scale);
   result.log_error = robust_spread(std::move(logs));
+  result.contrast = contrast;
+  std::erase_if(pairs, [&](const Pair& p) {
+    return std::abs(p.log_scale - log_scale) > kGate * result.log_error;
+  });
+  if (!(seen.mean_depth > 0) || pairs.empty()) return result;
+  const double n = double(pairs.size());
+  double mapped = 0, predicted = 0;
+  for (const Pair& p : pairs) {
+    mapped += p.mapped / n;
+    predicted += p.predicted / n;
+  }
+  for (const Pair& p : pairs) {
+    result.variance += (p.mapped - mapped) * (p.mapped - mapped) / n;
+    result.covariance += (p.mapped - mapped) * (p.predicted - predicted) / n;
+  }
+  result.predicted = predicted - std::log(seen.mean_depth);
   return result;
 }
 

@@ -91,8 +91,8 @@ void Mapper::join(const KeyframePerception& seen) {
     if (k.frame == seen.frame) keyframe = id;
   });
   if (!keyframe.valid()) return;
-  const PictureScale picture = align_picture(map_, keyframe, seen);
-  if (picture.usable) scale_.add(picture.scale, seen.sigma_scale);
+  const PictureScale picture = align_picture(map_, keyframe, seen, scale_.contrast());
+  if (picture.usable) scale_.add(picture, seen.sigma_scale);
   const double scale = picture.usable ? picture.scale : scale_.picture_scale();
   if (!(scale > 0)) return;
   // A picture that cannot be compared with the map is no surer than its detector's scale.
@@ -100,6 +100,8 @@ void Mapper::join(const KeyframePerception& seen) {
       picture.usable ? picture.log_error : std::max(seen.sigma_scale, kUnknownScale);
   Keyframe& looked_at = map_.keyframes()[keyframe];
   looked_at.depth = seen.depth;
+  looked_at.mean_depth = seen.mean_depth;
+  map_.depth_contrast = scale_.contrast();
   looked_at.sigma_depth = log_error;
   looked_at.sigma_depth_scale = std::max(scale_.spread(), kLeastSpread);
   map_.units_a_metre = scale_.picture_scale() > 0 ? scale_.picture_scale() : scale;
@@ -108,8 +110,10 @@ void Mapper::join(const KeyframePerception& seen) {
                  options_.planes);
   recent_.insert(recent_.end(), assumed.begin(), assumed.end());
   spdlog::debug(
-      "planes: {} in the picture at {:.3f}, {} in the map; {:.3f} units a metre, {} points assumed",
-      seen.planes.size(), seen.frame->timestamp, map_.planes().size(), scale, assumed.size());
+      "planes: {} in the picture at {:.3f}, {} in the map; {:.3f} units a metre, contrast {:.2f}, "
+      "{} points assumed",
+      seen.planes.size(), seen.frame->timestamp, map_.planes().size(), scale, map_.depth_contrast,
+      assumed.size());
   publish(current_);
 }
 

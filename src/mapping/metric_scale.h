@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "cairn/mapping/keyframe_perception.h"
+
 namespace cairn {
 
 /// Metres a unit of the map.
@@ -22,9 +24,10 @@ ScaleEstimate given_scale(const ScaleEstimate& found, double factor);
 /// Collects what pictures say about the unit of the map.
 class MetricScale {
  public:
-  /// A picture's alignment: map units a metre of the detector, and how far off the detector's metre
-  /// may be in a scene, of the logarithm; 0 where it is measured.
-  void add(double picture_scale, double sigma);
+  MetricScale();
+  /// A picture's alignment, and how far off the detector's metre may be in a scene, of the
+  /// logarithm; 0 where it is measured.
+  void add(const PictureScale& picture, double sigma);
   /// Of all pictures the median; 0 where there is none yet.
   double picture_scale() const;
   /// How far pictures differ from one another: σ of the logarithm. A guess while they are few.
@@ -33,10 +36,19 @@ class MetricScale {
   /// number of pictures makes smaller, and the spread of the pictures over the root of their
   /// number.
   ScaleEstimate estimate() const;
+  /// Networks shy away from what is near and what is far: the range of depths in the map over that
+  /// in predictions, of logarithms, at least 1. Measured depth has 1.
+  double contrast() const;
 
  private:
-  double sigma_ = 0;          // the largest of all pictures
-  std::vector<double> logs_;  // of metres a unit, as the detector has it
+  struct Picture {
+    double log_scale, contrast, predicted;
+  };
+  std::vector<double> logs() const;  // of map units a metre, with the contrast of now
+
+  double sigma_ = 0;  // the largest of all pictures
+  std::vector<Picture> pictures_;
+  double variance_, covariance_;  // of depths in the map and in predictions
 };
 
 }  // namespace cairn

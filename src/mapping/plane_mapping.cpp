@@ -2,54 +2,35 @@
 
 #include <spdlog/spdlog.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cairn/geometry/median.h"
+#include "cairn/mapping/plane_refinement.h"
 
 namespace cairn {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr double kGate = 3;              // σ
-constexpr double kMaxStretch = 2.5;      // depth of a point on a plane over that of its centroid
-constexpr double kMinTiltSigma = 0.017;  // a degree: walls are no better
+constexpr double kGate = 3;  // σ
+constexpr double kMinIndependent =
+    1.5;                             // pictures: errors look alike for a while, surfaces for good
+constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of its centroid
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
-constexpr double kMaxRelationAngle = 8 * kRadians;
+constexpr double kMaxRelationAngle = 12 * kRadians;
 
-// Points of the map in the mask of a plane, in the keyframe's frame.
-std::vector<Eigen::Vector3d> points_in(const Map& map, const Keyframe& keyframe,
-                                       const SeenPlane& seen) {
+// Measured points of the map at these keypoints, in the keyframe's frame.
+std::vector<Eigen::Vector3d> points_at(const Map& map, const Keyframe& keyframe,
+                                       const std::vector<std::uint32_t>& keypoints) {
   const SE3 T_kw = keyframe.T_wc.inverse();
   std::vector<Eigen::Vector3d> points;
-  for (const std::uint32_t i : seen.keypoints) {
+  for (const std::uint32_t i : keypoints) {
     if (!keyframe.points[i].valid() || map.points()[keyframe.points[i]].assumed) continue;
     points.push_back(T_kw * map.points()[keyframe.points[i]].position);
   }
   return points;
-}
-
-// Points in the mask that lie on the plane become its; its own that have moved off it leave.
-void gather_points(Map& map, const Keyframe& keyframe, const SeenPlane& seen, PlaneId id,
-                   double point_sigma) {
-  const Plane plane = map.plane_in_world(id);
-  const auto lies_on = [&](PointId p) {
-    const Eigen::Vector3d& x = map.points()[p].position;
-    const double distance = (x - keyframe.T_wc.translation()).norm();
-    return std::abs(plane.signed_distance(x)) < kGate * point_sigma * distance;
-  };
-  for (const std::uint32_t i : seen.keypoints) {
-    const PointId p = keyframe.points[i];
-    if (p.valid() && !map.points()[p].plane.valid() && lies_on(p)) map.set_plane_of(p, id);
-  }
-  for (const std::uint32_t i : seen.keypoints) {
-    const PointId p = keyframe.points[i];
-    if (p.valid() && map.points()[p].plane == id && !lies_on(p)) map.set_plane_of(p, {});
-  }
 }
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
@@ -128,9 +109,11 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
   const auto measured = std::count_if(landmark.points.begin(), landmark.points.end(),
                                       [&](PointId p) { return !map.points()[p].assumed; });
   return static_cast<int>(landmark.sightings) >= options.min_sightings &&
+         landmark.independent >= kMinIndependent &&
          static_cast<int>(measured) >= options.min_points &&
          landmark.sigma_tilt <= options.max_tilt_sigma_deg * kRadians &&
-         landmark.spread <= options.max_spread;
+         landmark.spread <= options.max_spread && landmark.share >= options.min_share &&
+         landmark.detected >= options.min_detected;
 }
 
 void cull_planes(Map& map, std::uint32_t now, const PlaneMappingOptions& options) {
@@ -142,7 +125,7 @@ void cull_planes(Map& map, std::uint32_t now, const PlaneMappingOptions& options
 
 void update_evidence(Map& map, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
-    landmark.sigma_tilt = tilt_sigma(map, id, options);
+    refine_landmark(map, id, options.association.point_sigma, options.manhattan);
     landmark.spread = spread(map, id);
     landmark.confirmed = confirmed(map, id, options);
   });
@@ -183,92 +166,6 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
 
 }  // namespace
 
-int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, double sigma) {
-  // Unknowns: turns of the normal about two axes of the plane, and a shift along it, at the
-  // predicted centroid.
-  const Eigen::Vector3d n0 = seen.plane.normal(), c = seen.centroid;
-  const Eigen::Vector3d u = n0.unitOrthogonal(), v = n0.cross(u);
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // n = n0 + x0 u + x1 v, shift x2
-  const Eigen::Vector3d prior(1 / seen.sigma_angle, 1 / seen.sigma_angle, 1 / seen.sigma_offset);
-  const auto row = [&](const Eigen::Vector3d& p) {
-    return Eigen::Vector3d(u.dot(p - c), v.dot(p - c), -1);
-  };
-  // From a loss as wide as the prediction is unsure down to that of the points: so points of other
-  // things, that are nearer to the prediction, do not catch it.
-  double width = std::max(seen.sigma_offset, sigma);
-  Eigen::Matrix3d H;
-  while (true) {
-    for (int iteration = 0; iteration < 3; ++iteration) {
-      H = prior.cwiseAbs2().asDiagonal();
-      Eigen::Vector3d g = Eigen::Vector3d::Zero();
-      for (const Eigen::Vector3d& p : points) {
-        const Eigen::Vector3d J = row(p);
-        const double distance = n0.dot(p - c) + J.dot(x);
-        const double weight = 1 / (1 + std::pow(distance / width, 2)) / (sigma * sigma);  // Cauchy
-        H += weight * J * J.transpose();
-        g += weight * n0.dot(p - c) * J;
-      }
-      x = H.ldlt().solve(-g);
-    }
-    if (width <= sigma) break;
-    width = std::max(width / 2, sigma);
-  }
-  if (!x.allFinite()) return 0;
-  const Eigen::Vector3d n = (n0 + x[0] * u + x[1] * v).normalized();
-  const Eigen::Vector3d on_it = c + x[2] * n0;
-  const Plane refined = Plane::through(on_it, n);
-  const auto count = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
-    return std::abs(refined.signed_distance(p)) < kGate * sigma;
-  });
-  seen.plane = refined;
-  seen.centroid = c - refined.signed_distance(c) * n;
-  for (Eigen::Vector3d& corner : seen.outline) corner -= refined.signed_distance(corner) * n;
-  const Eigen::Matrix3d covariance = H.inverse();
-  seen.sigma_angle =
-      std::hypot(kMinTiltSigma, std::sqrt(std::max(covariance(0, 0), covariance(1, 1))));
-  seen.sigma_offset = std::hypot(sigma, std::sqrt(covariance(2, 2)));
-  return static_cast<int>(count);
-}
-
-double tilt_sigma(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
-  const PlaneLandmark& landmark = map.planes()[id];
-  // What a tilt about an axis in the plane would cost: the points far from the axis tell.
-  const Eigen::Vector3d n = map.plane_in_world(id).normal();
-  const Eigen::Vector3d u = n.unitOrthogonal(), v = n.cross(u);
-  const Eigen::Vector3d eye = map.keyframes()[landmark.reference].T_wc.translation();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  double distances = 0;
-  double count = 0;
-  for (const PointId p : landmark.points) {
-    if (map.points()[p].assumed) continue;
-    const Eigen::Vector3d& x = map.points()[p].position;
-    mean += Eigen::Vector2d(u.dot(x), v.dot(x));
-    distances += (x - eye).norm();
-    ++count;
-  }
-  if (count > 0) {
-    mean /= count;
-    const double sigma = options.association.point_sigma * distances / count;
-    for (const PointId p : landmark.points) {
-      if (map.points()[p].assumed) continue;
-      const Eigen::Vector3d& x = map.points()[p].position;
-      const Eigen::Vector2d off = Eigen::Vector2d(u.dot(x), v.dot(x)) - mean;
-      information += off * off.transpose() / (sigma * sigma);
-    }
-  }
-  // Pictures of one network err alike: together they count as one.
-  double best = 0;
-  for (const PlaneObservation& o : landmark.observations) {
-    best = std::max(best, 1 / (o.sigma_angle * o.sigma_angle));
-  }
-  information.diagonal().array() += best;
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information, Eigen::EigenvaluesOnly)
-          .eigenvalues()[0];
-  return least > 0 ? std::hypot(kMinTiltSigma, 1 / std::sqrt(least)) : std::numbers::pi;
-}
-
 std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerception& seen,
                                 const DepthScale& scale, const PlaneMappingOptions& options) {
   const Keyframe& keyframe = map.keyframes()[id];
@@ -284,7 +181,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
     raw.push_back(
         in_units(plane, scale.everywhere, std::hypot(scale.sigma_here, scale.sigma_everywhere)));
     planes.push_back(in_units(plane, scale.here, scale.sigma_here));
-    refine_plane(planes.back(), points_in(map, keyframe, planes.back()),
+    refine_plane(planes.back(), points_at(map, keyframe, plane.inner),
                  options.association.point_sigma * planes.back().centroid.norm());
   }
   const bool poor = measured_points(map, keyframe) < options.few_points;
@@ -305,12 +202,13 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
     } else {
       map.observe_plane(plane, id, raw[i]);
     }
-    gather_points(map, keyframe, planes[i], plane, options.association.point_sigma);
     if (poor) assume_points_on(map, id, planes[i], plane, created);
   }
   for (std::uint32_t i = 0; poor && i < keyframe.points.size(); ++i) {
     if (keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
-    created.push_back(assume_point(map, id, i, scale.here * seen.depth[i]));
+    created.push_back(assume_point(
+        map, id, i,
+        scale.here * stretched_depth(seen.depth[i], seen.mean_depth, map.depth_contrast)));
   }
   update_evidence(map, options);
   fuse_planes(map, options.association);
@@ -323,10 +221,12 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
   update_evidence(map, options);
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-    spdlog::debug("plane {} ({}): {} pictures, {} points, spread {:.4f}, tilt {:.1f} deg: {}",
-                  int(id.slot), landmark.label(), landmark.sightings, landmark.points.size(),
-                  landmark.spread, landmark.sigma_tilt / kRadians,
-                  landmark.confirmed ? "kept" : "refused");
+    spdlog::debug(
+        "plane {} ({}): {} pictures, {:.2f} of all, {} points, {:.2f} of all, spread {:.4f}, tilt "
+        "{:.1f} deg: {}",
+        int(id.slot), landmark.label(), landmark.sightings, landmark.detected,
+        landmark.points.size(), landmark.share, landmark.spread, landmark.sigma_tilt / kRadians,
+        landmark.confirmed ? "kept" : "refused");
     if (!landmark.confirmed) map.erase_plane(id);
   });
 }

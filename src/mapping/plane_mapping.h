@@ -8,10 +8,12 @@ namespace cairn {
 
 struct PlaneMappingOptions {
   bool manhattan = false;         ///< parallel and perpendicular planes are found and bound
-  int min_sightings = 3;          ///< pictures that a plane of the map must have
-  int min_points = 10;            ///< of the map that must lie on it
+  int min_sightings = 5;          ///< pictures that a plane of the map must have
+  int min_points = 6;             ///< of the map that must lie on it
   double max_tilt_sigma_deg = 5;  ///< how sure its normal must be
-  double max_spread = 0.03;       ///< of its points: those that only cross it are spread wider
+  double min_detected = 0.5;      ///< share of the keyframes of its points in which it was detected
+  double min_share = 0.6;         ///< of the points in its masks that lie on it
+  double max_spread = 0.02;       ///< of its points: those that only cross it are spread wider
   int probation = 8;  ///< keyframes after its last sighting within which all this must be
   /// A keyframe with fewer measured points takes points from planes, without a second view.
   int few_points = 100;
@@ -36,14 +38,5 @@ std::vector<PointId> map_planes(Map& map, KeyframeId keyframe, const KeyframePer
 /// At the end: planes that were never confirmed go. Confirmed is what enough pictures show and
 /// enough points carry: what networks alone say of a surface is too rough for a map.
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options);
-
-/// Lets points decide where a plane lies, as far as there are any: a robust fit in which the
-/// prediction (normal, offset at the centroid, with their σ) counts as much as it is sure. `points`
-/// in the plane's frame; `sigma`: of their distances from a plane. Returns how many lie on it.
-int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, double sigma);
-
-/// How sure the normal of a landmark is, radians: from where its points lie and from what pictures
-/// said.
-double tilt_sigma(const Map& map, PlaneId id, const PlaneMappingOptions& options);
 
 }  // namespace cairn

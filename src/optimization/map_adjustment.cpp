@@ -200,7 +200,9 @@ class Adjustment {
     log_units_ = std::log(map_.units_a_metre);
     const auto depth_of = [&](const Edge& edge) {
       const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
-      return keyframe.depth.empty() ? 0 : keyframe.depth[edge.keypoint];
+      if (keyframe.depth.empty()) return 0.0;
+      return stretched_depth(keyframe.depth[edge.keypoint], keyframe.mean_depth,
+                             map_.depth_contrast);
     };
     std::vector<int> known(keyframes_.size()), passed(keyframes_.size());
     const auto assumed = [&](const Edge& edge) {
@@ -210,7 +212,7 @@ class Adjustment {
       known[edge.keyframe] += depth_of(edge) > 0 && !assumed(edge);
     }
     for (const Edge& edge : observations_) {
-      const float depth = depth_of(edge);
+      const double depth = depth_of(edge);
       if (!(depth > 0)) continue;
       const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
       const double local = std::max(keyframe.sigma_depth, 1e-3);

@@ -62,8 +62,9 @@ bool PlaneBlocks::takes_part(const PlaneLandmark& landmark, const PoseBlock& pos
 void PlaneBlocks::add_observations(Entry& entry) {
   const PlaneLandmark& landmark = map_.planes()[entry.id];
   const FactorForm form = options_.observation.form;
-  // Pictures of one network err alike: together they count as one.
-  const double s = options_.observation.sigma * std::sqrt(double(landmark.observations.size()));
+  // Pictures that follow each other err alike.
+  const double s = options_.observation.sigma *
+                   std::sqrt(double(landmark.observations.size()) / landmark.independent);
   for (const PlaneObservation& o : landmark.observations) {
     const PlaneMeasurement measurement =
         PlaneMeasurement::isotropic(o.normal, o.centroid, s * o.sigma_angle, s * o.sigma_offset);

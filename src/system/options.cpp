@@ -53,6 +53,8 @@ OptionTable::OptionTable(Options& o) {
   add("planes.point_sigma", planes.association.point_sigma, "", {0.001, 0.2}, "distance of a point that lies on a plane, as a share of the viewing distance");
   add("planes.min_points", planes.min_points, "points", {0, 1000}, "of the map that must lie on it");
   add("planes.max_tilt_sigma_deg", planes.max_tilt_sigma_deg, "degrees", {0.5, 45}, "how sure its normal must be");
+  add("planes.min_detected", planes.min_detected, "", {0, 1}, "of the keyframes that see the points of a confirmed plane, share in which it was detected");
+  add("planes.min_share", planes.min_share, "", {0, 1}, "of the points in its masks that lie on a confirmed plane");
   add("planes.max_spread", planes.max_spread, "", {0.001, 1}, "of its points off it, as a share of the viewing distance");
   add("planes.few_points", planes.few_points, "points", {0, 10000}, "measured; a keyframe with fewer takes points from planes and predicted depth");
   add("planes.probation", planes.probation, "keyframes", {1, 1000}, "after its last sighting within which all this must be reached");

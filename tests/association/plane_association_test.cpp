@@ -31,7 +31,7 @@ class PlaneAssociation : public ::testing::Test {
     return associate_planes(map, map.newest(), planes, {}).at(0);
   }
   static SeenPlane with_keypoints(SeenPlane seen, std::uint32_t number) {
-    seen.keypoints = indices(0, number);
+    seen.keypoints = seen.inner = indices(0, number);
     return seen;
   }
   // A part of the same wall that does not touch what was seen of it before.

@@ -94,7 +94,7 @@ TEST_F(MapPlanes, ANewPlaneIsWhereItsKeyframeSawIt) {
   const PlaneLandmark& landmark = map.planes()[id];
   EXPECT_EQ(landmark.reference, b);
   ASSERT_THAT(landmark.observations, SizeIs(1));
-  EXPECT_EQ(landmark.observations[0].keyframe, b);
+  EXPECT_TRUE(landmark.seen_by(b));
   EXPECT_EQ(landmark.sightings, 1u);
   EXPECT_EQ(landmark.last_seen, map.keyframes()[b].sequence);
   EXPECT_GT(landmark.plane.offset(), 0) << "the keyframe is on its positive side";
@@ -197,6 +197,29 @@ TEST_F(MapPlanes, MergedPlanesHaveThePointsVotesObservationsAndCornersOfBoth) {
   EXPECT_EQ(broken_planes(map), "");
 }
 
+TEST(CommonOutline, LeavesOutWhatOnlyOnePictureInManyShows) {
+  const auto small = rectangle({-1, -1, 4}, {2, 0, 0}, {0, 2, 0});
+  std::vector<std::vector<Eigen::Vector3d>> outlines(30, small);
+  outlines.push_back(rectangle({-1, -1, 4}, {9, 0, 0}, {0, 2, 0}));
+  const auto outline = common_outline(kWall, outlines);
+  ASSERT_THAT(outline, SizeIs(4));
+  for (const Eigen::Vector3d& corner : small) EXPECT_TRUE(has_corner(outline, corner));
+  outlines.resize(3);  // of few pictures each counts
+  outlines.push_back(rectangle({-1, -1, 4}, {9, 0, 0}, {0, 2, 0}));
+  EXPECT_TRUE(has_corner(common_outline(kWall, outlines), {8, 1, 4}));
+  EXPECT_THAT(common_outline(kWall, {}), IsEmpty());
+}
+
+TEST(MovedAlongRays, CornersKeepTheirPixelsAndThoseThatMissThePlaneGo) {
+  const std::vector<Eigen::Vector3d> corners = {{1, 1, 2}, {-1, 1, 2}, {-1, -1, 2}, {0, 0, -2}};
+  const auto moved = moved_along_rays(corners, kWall);
+  ASSERT_THAT(moved, SizeIs(3));
+  EXPECT_LT((moved[0] - Eigen::Vector3d(2, 2, 4)).norm(), 1e-9);
+  const Plane floor(-Eigen::Vector3d::UnitY(), 1);  // y = 1
+  const std::vector<Eigen::Vector3d> low = {{1, 1, 2}, {0, 1, 2}, {-1, 1, 2}, {0, 0.01, 1}};
+  EXPECT_THAT(moved_along_rays(low, floor), SizeIs(3)) << "the horizon is far";
+}
+
 TEST_F(MapPlanes, APlaneStaysWhereItIsWhenItsReferenceGoes) {
   const PlaneId id = map.add_plane(a, wall_of(a));
   map.observe_plane(id, c, wall_of(c));
@@ -213,7 +236,7 @@ TEST_F(MapPlanes, APlaneStaysWhereItIsWhenItsReferenceGoes) {
     EXPECT_THAT(Plane::through(o.centroid, o.normal).transformed(map.keyframes()[o.keyframe].T_wc),
                 IsNearPlane(kWall, 1e-6, 1e-9));
   }
-  EXPECT_EQ(landmark.observations[0].keyframe, b);
+  EXPECT_TRUE(landmark.seen_by(b));
   EXPECT_EQ(broken_planes(map), "");
   map.erase_keyframe(c);  // b has an observation of its own: c's goes
   EXPECT_THAT(map.planes()[id].observations, SizeIs(1));

@@ -1,0 +1,202 @@
+#include "cairn/mapping/plane_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cairn/mapping/plane_evidence.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kGate = 3;              // σ
+constexpr double kMinTiltSigma = 0.017;  // a degree: walls are no better
+constexpr std::size_t kFewPoints = 6;    // far from the rims: then those at the rims count, too
+constexpr double kWellKnown = 0.023;     // of its normal, radians
+constexpr double kStructureGate = 2;     // σ of the angle
+constexpr double kMaxStructure = 0.14;   // eight degrees, however little is known
+constexpr int kWellSeen = 3;             // points of a plane, that a picture should show it
+constexpr double kErrorsLast = 1.5;      // seconds
+constexpr double kPixel = 0.7;           // of where a keypoint is, over all its observations
+constexpr double kUnsure = 2;            // points much less sure than surfaces are flat say nothing
+
+// How many pictures without common errors the observations of a plane are worth: those of a network
+// change within a second or two (docs/perception_noise.md).
+double independent_pictures(const Map& map, const PlaneLandmark& landmark) {
+  std::vector<double> times;
+  times.reserve(landmark.observations.size());
+  for (const PlaneObservation& o : landmark.observations) {
+    times.push_back(map.keyframes()[o.keyframe].timestamp());
+  }
+  std::sort(times.begin(), times.end());
+  double independent = 1;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    independent += 1 - std::exp(-(times[i] - times[i - 1]) / kErrorsLast);
+  }
+  return independent;
+}
+
+// In the world. Its depth is as sure as the rays of its observations are apart.
+PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
+  const MapPoint& point = map.points()[id];
+  const Keyframe& eye = map.keyframes()[point.observations.front().keyframe];
+  const Eigen::Vector3d ray = point.position - eye.T_wc.translation();
+  double sine = 0;
+  for (const Observation& o : point.observations) {
+    const Eigen::Vector3d other = point.position - map.keyframes()[o.keyframe].T_wc.translation();
+    sine = std::max(sine, ray.cross(other).norm() / (ray.norm() * other.norm()));
+  }
+  const double sigma_depth = kPixel / map.view().pinhole().fx / std::max(sine, 1e-9);
+  return {point.position, point_sigma * ray.norm(), std::min(sigma_depth, 1.0) * ray};
+}
+
+// What pictures say of a landmark, in the world.
+PlaneEvidence pictures_of(const Map& map, PlaneId id) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  const Eigen::Vector3d now = map.plane_in_world(id).normal();
+  const double alike =
+      std::sqrt(double(landmark.observations.size()) / independent_pictures(map, landmark));
+  PlaneEvidence evidence;
+  for (const PlaneObservation& o : landmark.observations) {
+    const SE3& T_wk = map.keyframes()[o.keyframe].T_wc;
+    const Eigen::Vector3d n = T_wk.rotation() * o.normal;
+    evidence.add_normal(n.dot(now) < 0 ? -n : n, alike * o.sigma_angle);
+    evidence.add_place(T_wk * o.centroid, alike * o.sigma_offset);
+  }
+  return evidence;
+}
+
+// Of a plane of which little is known: if it is parallel or perpendicular to well-known ones, as
+// far as can be told, it is.
+void add_structure(const Map& map, const Plane& plane, double sigma, PlaneEvidence& evidence) {
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark& known) {
+    if (!known.confirmed) return;
+    const Eigen::Vector3d n = map.plane_in_world(id).normal();
+    const double cosine = std::clamp(plane.normal().dot(n), -1.0, 1.0);
+    const double gate =
+        std::min(kStructureGate * std::hypot(sigma, known.sigma_tilt), kMaxStructure);
+    const double sure = std::hypot(kMinTiltSigma, known.sigma_tilt);
+    if (std::acos(std::abs(cosine)) < gate) evidence.add_normal(cosine < 0 ? -n : n, sure);
+    if (std::asin(std::abs(cosine)) < gate) evidence.add_direction(n, sure);
+  });
+}
+
+// Returns how sure its normal is.
+double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double point_sigma,
+              bool manhattan) {
+  PlaneEvidence evidence = pictures_of(map, id);
+  for (const PointId p : points) evidence.add_point(plane_point(map, p, point_sigma));
+  PlaneLandmark& landmark = map.planes()[id];
+  Plane plane = map.plane_in_world(id);
+  const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
+  for (int i = 0; i < (manhattan ? 2 : 1); ++i) {
+    if (i > 0) add_structure(map, plane, evidence.sigma_angle(plane, middle), evidence);
+    const auto solved = evidence.solve(plane);
+    if (!solved) break;
+    plane = *solved;
+  }
+  landmark.plane = plane.transformed(map.keyframes()[landmark.reference].T_wc.inverse());
+  return std::hypot(kMinTiltSigma, evidence.sigma_angle(plane, middle));
+}
+
+double detection_rate(const Map& map, const PlaneLandmark& landmark) {
+  std::map<KeyframeId, int> points_seen;
+  for (const PointId p : landmark.points) {
+    for (const Observation& o : map.points()[p].observations) ++points_seen[o.keyframe];
+  }
+  int chances = 0, detections = 0;
+  for (const auto& [keyframe, count] : points_seen) {
+    if (count < kWellSeen || map.keyframes()[keyframe].depth.empty()) continue;
+    ++chances;
+    detections += landmark.seen_by(keyframe);
+  }
+  return chances > 0 ? double(detections) / chances : 0;
+}
+
+double tilt_sigma(const Map& map, PlaneId id, double point_sigma) {
+  PlaneEvidence evidence = pictures_of(map, id);
+  for (const PointId p : map.planes()[id].points) {
+    if (!map.points()[p].assumed) evidence.add_point(plane_point(map, p, point_sigma));
+  }
+  const Plane plane = map.plane_in_world(id);
+  const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
+  return std::hypot(kMinTiltSigma, evidence.sigma_angle(plane, middle));
+}
+
+struct PointsOnPlane {
+  std::vector<PointId> on;
+  int sure = 0;  // of all, those whose depth is sure enough to tell
+};
+
+PointsOnPlane points_on(const Map& map, const Plane& plane, const std::vector<PointId>& points,
+                        double point_sigma) {
+  PointsOnPlane result;
+  for (const PointId p : points) {
+    const PlanePoint point = plane_point(map, p, point_sigma);
+    const double sigma = point.sigma_off(plane);
+    if (sigma > kUnsure * point.sigma) continue;
+    ++result.sure;
+    if (std::abs(plane.signed_distance(point.position)) < kGate * sigma) result.on.push_back(p);
+  }
+  return result;
+}
+
+// Points in order. One that lies on another plane already stays there.
+void set_members(Map& map, PlaneId id, const std::vector<PointId>& points) {
+  const std::vector<PointId> before = map.planes()[id].points;
+  for (const PointId p : before) {
+    const bool stays =
+        std::binary_search(points.begin(), points.end(), p) || map.points()[p].assumed;
+    if (!stays) map.set_plane_of(p, {});
+  }
+  for (const PointId p : points) {
+    if (!map.points()[p].plane.valid()) map.set_plane_of(p, id);
+  }
+}
+
+}  // namespace
+
+int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, double sigma) {
+  PlaneEvidence evidence;
+  evidence.add_normal(seen.plane.normal(), seen.sigma_angle);
+  evidence.add_place(seen.centroid, seen.sigma_offset);
+  for (const Eigen::Vector3d& p : points) evidence.add_point({p, sigma});
+  const auto plane = evidence.solve(seen.plane);
+  if (!plane) return 0;
+  const Eigen::Vector3d n = plane->normal();
+  seen.plane = *plane;
+  seen.centroid -= plane->signed_distance(seen.centroid) * n;
+  for (Eigen::Vector3d& corner : seen.outline) corner -= plane->signed_distance(corner) * n;
+  seen.sigma_angle = std::hypot(kMinTiltSigma, evidence.sigma_angle(*plane, seen.centroid));
+  seen.sigma_offset = std::hypot(sigma, evidence.sigma_place(*plane, seen.centroid));
+  return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const auto& p) {
+    return std::abs(plane->signed_distance(p)) < kGate * sigma;
+  }));
+}
+
+void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
+  PlaneLandmark& landmark = map.planes()[id];
+  const auto measured = [&](bool rim) {
+    std::vector<PointId> points = map.points_in_masks(id, rim);
+    std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });
+    return points;
+  };
+  std::vector<PointId> seen = measured(false);
+  if (seen.size() < kFewPoints) seen = measured(true);
+  if (!landmark.confirmed) {
+    landmark.sigma_tilt = fit_to(map, id, seen, point_sigma, manhattan);
+  } else {
+    landmark.sigma_tilt = tilt_sigma(map, id, point_sigma);
+  }
+  const Plane plane = map.plane_in_world(id);
+  const auto [on, sure] = points_on(map, plane, seen, point_sigma);
+  landmark.share = sure > 0 ? double(on.size()) / sure : 0;
+  // Of a plane that is well known those at the rims are told from what stands in front.
+  const bool well_known = landmark.sigma_tilt < kWellKnown;
+  set_members(map, id, well_known ? points_on(map, plane, measured(true), point_sigma).on : on);
+  landmark.detected = detection_rate(map, landmark);
+  landmark.independent = independent_pictures(map, landmark);
+  map.update_outline(id);
+}
+
+}  // namespace cairn

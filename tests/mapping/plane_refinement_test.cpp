@@ -1,0 +1,222 @@
+#include "cairn/mapping/plane_refinement.h"
+
+#include <gmock/gmock.h>
+
+#include "cairn/mapping/plane_evidence.h"
+#include "geometry/planes.h"
+#include "map/flat_map.h"
+
+namespace cairn {
+namespace {
+
+using testing::disturbed;
+using testing::few_poses;
+using testing::grid_on;
+using testing::indices;
+using testing::IsNearPlane;
+using testing::keyframes_of;
+using testing::map_of;
+using testing::points_of;
+using testing::Random;
+using testing::rectangle;
+using testing::seen_from;
+using ::testing::SizeIs;
+using testing::wall_corners;
+
+const Plane kWall(Eigen::Vector3d::UnitZ(), -4);
+
+// Of the points 45 of 100 lie on the plane, 40 on another one that is nearer to the prediction.
+TEST(PlaneEvidence, FindsThePlaneOfMostPointsFromFarAway) {
+  Random random(3);
+  PlaneEvidence evidence;
+  const Plane truth(Eigen::Vector3d(0.3, 0, 0.954).normalized(), -4.4);
+  const auto add_on = [&](const Plane& plane, int count) {
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector3d ray(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1);
+      evidence.add_point({*plane.depth_along(ray) * ray, 0.04});
+    }
+  };
+  add_on(truth, 45);
+  add_on(Plane(Eigen::Vector3d::UnitZ(), -4.05), 40);
+  for (int i = 0; i < 15; ++i) {
+    const Eigen::Vector3d ray(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1);
+    evidence.add_point({random.uniform(1, 7) * ray, 0.04});
+  }
+  evidence.add_normal(Eigen::Vector3d::UnitZ(), 0.3);
+  evidence.add_place({0, 0, 4.1}, 0.6);
+  const auto found = evidence.solve(Plane(Eigen::Vector3d::UnitZ(), -4.1));
+  ASSERT_TRUE(found);
+  EXPECT_THAT(*found, IsNearPlane(truth, 1, 0.03));
+  EXPECT_LT(evidence.sigma_angle(*found, {0, 0, 4.4}), 0.02);
+}
+
+TEST(PlaneEvidence, ADirectionInThePlaneTurnsItOnlyAsFarAsNeeded) {
+  PlaneEvidence evidence;
+  evidence.add_normal(Eigen::Vector3d(0.2, 0.1, 0.97).normalized(), 0.2);
+  evidence.add_place({0, 0, 3}, 0.1);
+  evidence.add_direction(Eigen::Vector3d::UnitX(), 0.01);
+  const auto found = evidence.solve(Plane(Eigen::Vector3d(0.2, 0.1, 0.97).normalized(), -2.9));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->normal().x(), 0, 0.01);
+  EXPECT_NEAR(found->normal().y(), 0.1, 0.01);
+  EXPECT_NEAR(found->signed_distance({0, 0, 3}), 0, 1e-3);
+}
+
+TEST(PlaneEvidence, PointsOfUnsureDepthBendNoPlane) {
+  PlaneEvidence evidence;
+  evidence.add_normal(Eigen::Vector3d::UnitZ(), 0.05);
+  evidence.add_place({0, 0, 4}, 0.05);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d far(0.1 * i - 1, 0.05 * i, 4.5);
+    evidence.add_point({far, 0.04, 0.5 * far});
+  }
+  EXPECT_THAT(*evidence.solve(kWall), IsNearPlane(kWall, 1, 0.05));
+}
+
+TEST(RefinePlane, FindsThePlaneOfThePointsDespiteOutliers) {
+  Random random(12);
+  const Plane truth = Plane::through({0.4, -0.2, 3}, Eigen::Vector3d(0.3, 0.2, -0.9).normalized());
+  const Eigen::Vector3d n = truth.normal(), middle(0.4, -0.2, 3);
+  const auto axes = tangent_axes(n);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 60; ++i) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    const bool outlier = i % 10 < 3;
+    const double side = random.uniform(0, 1) < 0.5 ? -1 : 1;
+    const double off = outlier ? side * random.uniform(0.3, 1.2) : 0.03 * random.gaussian();
+    points.push_back(middle + axes * Eigen::Vector2d(x, y) + off * n);
+  }
+  SeenPlane exact;
+  exact.plane = truth;
+  exact.centroid = middle;
+  exact.outline = rectangle(middle, axes.col(0), axes.col(1));
+  exact.sigma_angle = 0.2;
+  exact.sigma_offset = 0.3;
+  SeenPlane seen = disturbed(exact, 15, 0.1);
+  ASSERT_GT(angle_between(seen.plane, truth), 0.2);
+  const int count = refine_plane(seen, points, 0.03);
+  EXPECT_LT(angle_between(seen.plane, truth) * 180 / M_PI, 2);
+  EXPECT_LT(std::abs(seen.plane.signed_distance(middle)), 0.015 * middle.norm());
+  EXPECT_GE(count, 38);
+  EXPECT_LE(count, 46);
+  EXPECT_NEAR(seen.plane.signed_distance(seen.centroid), 0, 1e-9);
+  for (const auto& corner : seen.outline) EXPECT_NEAR(seen.plane.signed_distance(corner), 0, 1e-9);
+}
+
+TEST(RefinePlane, WithoutPointsChangesNothing) {
+  const SeenPlane before = disturbed(seen_from(SE3(), wall_corners()), 8, 0.1);
+  SeenPlane seen = before;
+  EXPECT_EQ(refine_plane(seen, {}, 0.04), 0);
+  EXPECT_THAT(seen.plane, IsNearPlane(before.plane, 1e-6, 1e-9));
+  EXPECT_LT((seen.centroid - before.centroid).norm(), 1e-9);
+}
+
+TEST(RefinePlane, BelievesASurePredictionMoreThanAFewPoints) {
+  SeenPlane seen = seen_from(SE3(), wall_corners());
+  seen.sigma_angle = 1e-4;
+  seen.sigma_offset = 1e-4;
+  const std::vector<Eigen::Vector3d> points(3, Eigen::Vector3d(0.5, 0, 4.04));
+  refine_plane(seen, points, 0.04);
+  EXPECT_THAT(seen.plane, IsNearPlane(kWall, 0.1, 0.001));
+}
+
+class RefineLandmark : public ::testing::Test {
+ protected:
+  // 36 points of a wall and 36 before it, which three keyframes see.
+  RefineLandmark() {
+    points = grid_on(wall_corners(), 6);
+    const auto before = grid_on(rectangle({-1.4, -0.9, 3.9}, {2.6, 0, -0.6}, {0, 1.7, -0.9}), 6);
+    points.insert(points.end(), before.begin(), before.end());
+    map = map_of(points, few_poses(3));
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(points.size(), 1);  // looked at
+    }
+  }
+  // As the first `pictures` keyframes see the wall, five degrees off, with these keypoints in the
+  // masks and far from their rims.
+  PlaneId see_wall(int pictures, const std::vector<std::vector<std::uint32_t>>& keypoints,
+                   const std::vector<std::vector<std::uint32_t>>& inner) {
+    PlaneId id;
+    const auto keyframes = keyframes_of(map);
+    for (int i = 0; i < pictures; ++i) {
+      SeenPlane seen = disturbed(seen_from(few_poses(3)[i], wall_corners()), 5, 0.04);
+      seen.sigma_angle = 0.2;
+      seen.sigma_offset = 0.4;
+      seen.keypoints = keypoints[i % keypoints.size()];
+      seen.inner = inner[i % inner.size()];
+      if (i == 0) {
+        id = map.add_plane(keyframes[i], seen);
+      } else {
+        map.observe_plane(id, keyframes[i], seen);
+      }
+    }
+    refine_landmark(map, id, 0.01, false);
+    return id;
+  }
+  const PlaneLandmark& landmark(PlaneId id) const { return map.planes()[id]; }
+
+  std::vector<Eigen::Vector3d> points;
+  Map map{testing::point_view()};
+};
+
+TEST_F(RefineLandmark, ThePointsInItsMasksSayWhereItLies) {
+  const auto wall = indices(0, 36);
+  const PlaneId id = see_wall(3, {wall}, {wall});
+  EXPECT_THAT(map.plane_in_world(id), IsNearPlane(kWall, 0.2, 0.005));
+  EXPECT_THAT(landmark(id).points, SizeIs(36));
+  EXPECT_EQ(landmark(id).share, 1);
+  EXPECT_EQ(landmark(id).detected, 1);
+  EXPECT_GT(landmark(id).independent, 1.5) << "a second apart";
+  EXPECT_LT(landmark(id).independent, 3);
+}
+
+TEST_F(RefineLandmark, PointsThatOneMaskHasAndTwoHaveNotAreNotAsked) {
+  const auto wall = indices(0, 36), all = indices(0, 72);
+  const PlaneId id = see_wall(3, {all, wall, wall}, {all, wall, wall});
+  EXPECT_THAT(map.points_in_masks(id, false), SizeIs(36));
+  EXPECT_EQ(landmark(id).share, 1);
+}
+
+TEST_F(RefineLandmark, PointsAtTheRimsCountOnlyOnceThePlaneIsWellKnown) {
+  const auto wall = indices(0, 36), all = indices(0, 72);
+  const PlaneId id = see_wall(3, {all}, {indices(0, 35)});
+  EXPECT_THAT(map.plane_in_world(id), IsNearPlane(kWall, 0.5, 0.01)) << "not bent by the rims";
+  EXPECT_EQ(landmark(id).share, 1);
+  EXPECT_GE(landmark(id).points.size(), 36u) << "the rest of the wall, too";
+}
+
+TEST_F(RefineLandmark, ShowsInHowManyOfThePicturesOfItsPointsItWasDetected) {
+  const auto wall = indices(0, 36);
+  EXPECT_NEAR(landmark(see_wall(1, {wall}, {wall})).detected, 1.0 / 3, 1e-9);
+}
+
+TEST_F(RefineLandmark, ATiltIsSurerWithMoreAndWiderPoints) {
+  const auto tilt = [&](const std::vector<std::uint32_t>& inside) {
+    return landmark(see_wall(1, {inside}, {inside})).sigma_tilt;
+  };
+  const double none = tilt({}), narrow = tilt({13, 14, 15, 19, 20, 21});
+  const double wide = tilt({0, 5, 14, 15, 30, 35}), all = tilt(indices(0, 36));
+  EXPECT_NEAR(none, 0.2, 0.01);
+  EXPECT_LT(narrow, none);
+  EXPECT_LT(wide, 0.7 * narrow);
+  EXPECT_LT(all, wide);
+  EXPECT_GT(all, 0.01) << "walls are no better";
+}
+
+TEST_F(RefineLandmark, IfTheWorldIsManhattanAPlaneWithoutPointsIsTurnedToThoseThatAreSure) {
+  SeenPlane floor = seen_from(SE3(), rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, 0.1, 1.2}));
+  const PlaneId known = map.add_plane(map.first(), floor);
+  map.planes()[known].sigma_tilt = 0.02;
+  map.planes()[known].confirmed = true;
+  const PlaneId id = see_wall(3, {{}}, {{}});
+  const auto off_square = [&] {
+    return std::abs(map.plane_in_world(id).normal().dot(map.plane_in_world(known).normal()));
+  };
+  const double before = off_square();
+  refine_landmark(map, id, 0.01, true);
+  EXPECT_GT(before, 0.04);
+  EXPECT_LT(off_square(), 0.2 * before);
+}
+
+}  // namespace
+}  // namespace cairn
