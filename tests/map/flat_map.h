@@ -41,6 +41,7 @@ inline std::vector<Eigen::Vector3d> wall_corners() {
 /// A short walk to the right, turning to the left.
 inline std::vector<SE3> few_poses(int count) {
   std::vector<SE3> poses;
+  poses.reserve(count);
   for (int i = 0; i < count; ++i) {
     poses.emplace_back(so3_exp(Eigen::Vector3d(0.01 * i, -0.05 * i, 0)),
                        Eigen::Vector3d(0.3 * i, 0.02 * i, -0.05 * i));

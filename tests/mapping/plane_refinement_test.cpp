@@ -16,7 +16,6 @@ using testing::indices;
 using testing::IsNearPlane;
 using testing::keyframes_of;
 using testing::map_of;
-using testing::points_of;
 using testing::Random;
 using testing::rectangle;
 using testing::seen_from;
