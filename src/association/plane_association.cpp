@@ -83,7 +83,7 @@ class Candidates {
   }
 
   PlaneDecision decide(const SeenPlane& seen) const {
-    const std::vector<Eigen::Vector3d> points = points_in(seen);
+    const std::vector<Eigen::Vector3d> points = map_.measured_points_at(keyframe_, seen.inner);
     const KnownPlane* best = nullptr;
     int most = 0;
     for (const KnownPlane& known : known_) {
@@ -103,15 +103,6 @@ class Candidates {
   }
 
  private:
-  std::vector<Eigen::Vector3d> points_in(const SeenPlane& seen) const {
-    const SE3 T_kw = keyframe_.T_wc.inverse();
-    std::vector<Eigen::Vector3d> points;
-    for (const std::uint32_t keypoint : seen.inner) {
-      const MapPoint* point = map_.points().find(keyframe_.points[keypoint]);
-      if (point != nullptr && !point->assumed) points.push_back(T_kw * point->position);
-    }
-    return points;
-  }
   int count_on(const Plane& plane, const std::vector<Eigen::Vector3d>& points) const {
     return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const auto& p) {
       return std::abs(plane.signed_distance(p)) < kGate * options_.point_sigma * p.norm();
@@ -152,10 +143,7 @@ std::vector<PlaneDecision> associate_planes(const Map& map, KeyframeId keyframe,
 }
 
 KnownPlane KnownPlane::transformed(const SE3& T_ba) const {
-  KnownPlane result = *this;
-  result.plane = plane.transformed(T_ba);
-  for (Eigen::Vector3d& corner : result.outline) corner = T_ba * corner;
-  return result;
+  return {id, plane.transformed(T_ba), cairn::transformed(outline, T_ba), sigma_tilt};
 }
 
 const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPlane> known,

@@ -93,6 +93,17 @@ double Map::viewing_distance(PointId id) const {
   return (point.position - eye.T_wc.translation()).norm();
 }
 
+std::vector<Eigen::Vector3d> Map::measured_points_at(
+    const Keyframe& keyframe, const std::vector<std::uint32_t>& keypoints) const {
+  const SE3 T_kw = keyframe.T_wc.inverse();
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint32_t i : keypoints) {
+    const MapPoint* point = points_.find(keyframe.points[i]);
+    if (point != nullptr && !point->assumed) points.push_back(T_kw * point->position);
+  }
+  return points;
+}
+
 int Map::keypoint_of(PointId point, KeyframeId keyframe) const {
   for (const Observation& o : points_[point].observations) {
     if (o.keyframe == keyframe) return static_cast<int>(o.keypoint);

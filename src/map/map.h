@@ -93,6 +93,10 @@ class Map {
 
   /// From the keyframe that saw a point first to the point.
   double viewing_distance(PointId id) const;
+  /// Measured points at these keypoints, in the keyframe's frame; those without a point are left
+  /// out.
+  std::vector<Eigen::Vector3d> measured_points_at(
+      const Keyframe& keyframe, const std::vector<std::uint32_t>& keypoints) const;
   /// The keypoint by which a keyframe sees a point, or -1.
   int keypoint_of(PointId point, KeyframeId keyframe) const;
   /// Recomputes normal and base distance, or the descriptor, from the observations.

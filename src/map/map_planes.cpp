@@ -63,9 +63,7 @@ void Map::update_outline(PlaneId id) {
 std::vector<Eigen::Vector3d> Map::outline_of(const PlaneLandmark& landmark,
                                              const PlaneObservation& o) const {
   const SE3 T_rk = keyframes_[landmark.reference].T_wc.inverse() * keyframes_[o.keyframe].T_wc;
-  auto corners = moved_along_rays(o.corners, landmark.plane.transformed(T_rk.inverse()));
-  for (Eigen::Vector3d& corner : corners) corner = T_rk * corner;
-  return corners;
+  return transformed(moved_along_rays(o.corners, landmark.plane.transformed(T_rk.inverse())), T_rk);
 }
 
 std::vector<PointId> Map::points_in_masks(PlaneId id, bool rim) const {
@@ -108,9 +106,8 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   target.last_seen = std::max(target.last_seen, moved.last_seen);
   for (const PlaneObservation& o : moved.observations) target.add(o);
   const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
-  for (auto outline : moved.buried_outlines) {
-    for (Eigen::Vector3d& corner : outline) corner = T_rf * corner;
-    target.buried_outlines.push_back(std::move(outline));
+  for (const auto& outline : moved.buried_outlines) {
+    target.buried_outlines.push_back(transformed(outline, T_rf));
   }
   for (const auto& [point, votes] : moved.buried_votes) {
     MaskVotes& sum = target.buried_votes[point];
@@ -128,9 +125,7 @@ Plane Map::plane_in_world(PlaneId id) const {
 
 std::vector<Eigen::Vector3d> Map::outline_in_world(PlaneId id) const {
   const PlaneLandmark& landmark = planes_[id];
-  std::vector<Eigen::Vector3d> outline = landmark.outline;
-  for (Eigen::Vector3d& corner : outline) corner = keyframes_[landmark.reference].T_wc * corner;
-  return outline;
+  return transformed(landmark.outline, keyframes_[landmark.reference].T_wc);
 }
 
 // What the keyframe saw of planes is still true once it is gone: a neighbour takes it over, unless

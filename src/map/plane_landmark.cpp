@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "cairn/geometry/median.h"
 
@@ -51,6 +52,11 @@ void PlaneLandmark::add(const PlaneObservation& o) {
     return;
   }
   observations.push_back(o);
+}
+
+std::vector<Eigen::Vector3d> transformed(std::vector<Eigen::Vector3d> corners, const SE3& T_ba) {
+  for (Eigen::Vector3d& corner : corners) corner = T_ba * corner;
+  return corners;
 }
 
 std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>& corners,
@@ -100,10 +106,8 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline) {
 void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& T_nr) {
   landmark.reference = reference;
   landmark.plane = landmark.plane.transformed(T_nr);
-  for (Eigen::Vector3d& corner : landmark.outline) corner = T_nr * corner;
-  for (auto& outline : landmark.buried_outlines) {
-    for (Eigen::Vector3d& corner : outline) corner = T_nr * corner;
-  }
+  landmark.outline = transformed(std::move(landmark.outline), T_nr);
+  for (auto& outline : landmark.buried_outlines) outline = transformed(std::move(outline), T_nr);
 }
 
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,

@@ -82,6 +82,9 @@ void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& 
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,
                                             const std::vector<Eigen::Vector3d>& points);
 
+/// Corners of frame a in frame b.
+std::vector<Eigen::Vector3d> transformed(std::vector<Eigen::Vector3d> corners, const SE3& T_ba);
+
 /// Corners seen from the origin, each moved along its ray onto the plane. Left out are those whose
 /// rays miss it or graze it far beyond the others.
 std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>& corners,

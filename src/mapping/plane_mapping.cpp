@@ -13,25 +13,12 @@ namespace cairn {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr double kGate = 3;  // σ
 constexpr double kMinIndependent =
     1.5;                             // pictures: errors look alike for a while, surfaces for good
 constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of its centroid
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
 constexpr double kMaxRelationAngle = 12 * kRadians;
-
-// Measured points of the map at these keypoints, in the keyframe's frame.
-std::vector<Eigen::Vector3d> points_at(const Map& map, const Keyframe& keyframe,
-                                       const std::vector<std::uint32_t>& keypoints) {
-  const SE3 T_kw = keyframe.T_wc.inverse();
-  std::vector<Eigen::Vector3d> points;
-  for (const std::uint32_t i : keypoints) {
-    if (!keyframe.points[i].valid() || map.points()[keyframe.points[i]].assumed) continue;
-    points.push_back(T_kw * map.points()[keyframe.points[i]].position);
-  }
-  return points;
-}
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
   return static_cast<int>(
@@ -181,7 +168,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
     raw.push_back(
         in_units(plane, scale.everywhere, std::hypot(scale.sigma_here, scale.sigma_everywhere)));
     planes.push_back(in_units(plane, scale.here, scale.sigma_here));
-    refine_plane(planes.back(), points_at(map, keyframe, plane.inner),
+    refine_plane(planes.back(), map.measured_points_at(keyframe, plane.inner),
                  options.association.point_sigma * planes.back().centroid.norm());
   }
   const bool poor = measured_points(map, keyframe) < options.few_points;

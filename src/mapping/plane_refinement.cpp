@@ -54,8 +54,7 @@ PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
 PlaneEvidence pictures_of(const Map& map, PlaneId id) {
   const PlaneLandmark& landmark = map.planes()[id];
   const Eigen::Vector3d now = map.plane_in_world(id).normal();
-  const double alike =
-      std::sqrt(double(landmark.observations.size()) / independent_pictures(map, landmark));
+  const double alike = std::sqrt(double(landmark.observations.size()) / landmark.independent);
   PlaneEvidence evidence;
   for (const PlaneObservation& o : landmark.observations) {
     const SE3& T_wk = map.keyframes()[o.keyframe].T_wc;
@@ -176,6 +175,7 @@ int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, doubl
 
 void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   PlaneLandmark& landmark = map.planes()[id];
+  landmark.independent = independent_pictures(map, landmark);
   const auto measured = [&](bool rim) {
     std::vector<PointId> points = map.points_in_masks(id, rim);
     std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });
@@ -195,7 +195,6 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   const bool well_known = landmark.sigma_tilt < kWellKnown;
   set_members(map, id, well_known ? points_on(map, plane, measured(true), point_sigma).on : on);
   landmark.detected = detection_rate(map, landmark);
-  landmark.independent = independent_pictures(map, landmark);
   map.update_outline(id);
 }
 
