@@ -17,8 +17,16 @@ KeyframeId Map::add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc
   return newest_;
 }
 
-double stretched_depth(double depth, double mean, double contrast) {
-  return mean > 0 && depth > 0 ? mean * std::pow(depth / mean, contrast) : depth;
+// Stretched from m, the logarithms' mean becomes μ' = m + c (μ − m) and their variance c² v. The
+// mean of such depths, as far as their logarithms are normal, is exp(μ' + c² v / 2): it stays where
+// it is stretched from, exp(m), if m = μ + c v / 2.
+double log_stretch(double from_mean, const DepthRange& range, double contrast) {
+  return (contrast - 1) * (from_mean - contrast * range.variance / 2);
+}
+
+double stretched_depth(double depth, const DepthRange& range, double contrast) {
+  if (!range.known() || !(depth > 0)) return depth;
+  return depth * std::exp(log_stretch(std::log(depth) - range.mean, range, contrast));
 }
 
 void Map::erase_keyframe(KeyframeId id) {

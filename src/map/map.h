@@ -13,6 +13,13 @@
 
 namespace cairn {
 
+/// Of the logarithms of all depths that a network predicts in a picture; all 0: unknown.
+struct DepthRange {
+  double mean = 0, variance = 0;
+
+  bool known() const { return mean != 0 || variance != 0; }
+};
+
 /// A frame that stays: its pose is optimised, its keypoints carry map points.
 struct Keyframe {
   std::uint32_t sequence = 0;  ///< how many keyframes were made before it, ever
@@ -21,7 +28,7 @@ struct Keyframe {
   std::vector<PointId> points;  ///< one a keypoint; invalid where there is none
   /// What a network predicts, one a keypoint, metres, 0: unknown; empty where none has looked.
   std::vector<float> depth = {};
-  double mean_depth = 0;         ///< of the whole picture as predicted, geometric; 0: unknown
+  DepthRange depth_range = {};   ///< of the whole picture as predicted
   double sigma_depth = 0;        ///< of its logarithm at one keypoint
   double sigma_depth_scale = 0;  ///< of the logarithm that all its keypoints share
 
@@ -47,9 +54,13 @@ struct MapPoint {
   bool assumed = false;  ///< its depth is that of its plane: no two views have measured it yet
 };
 
-/// Networks predict depths nearer to a picture's mean than they are: predicted depth with the range
-/// of its logarithms, from that of the mean, times `contrast`. As it is where no mean is known.
-double stretched_depth(double depth, double mean, double contrast);
+/// Networks predict depths nearer to the mean of a picture than they are: predicted depth with the
+/// range of its logarithms times `contrast`. What stays is the mean in metres, as it is depth that
+/// networks blur, and not its logarithm. As it is where no range is known.
+double stretched_depth(double depth, const DepthRange& range, double contrast);
+/// The logarithm of stretched over predicted depth, where that of predicted depth is `from_mean`
+/// above the mean of `range`.
+double log_stretch(double from_mean, const DepthRange& range, double contrast);
 
 /// Keyframes, points and planes with their observations. Owned and changed by the mapper alone.
 class Map {

@@ -4,13 +4,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "cairn/geometry/median.h"
-
 namespace cairn {
 namespace {
 
-constexpr int kMinScalePoints = 15;
-constexpr double kGate = 3;            // σ
 constexpr double kMinGrazing = 0.05;   // cosine between ray and normal: flatter says nothing
 constexpr double kMaxStretch = 2.5;    // depth of a corner over that of the centroid
 constexpr double kLeastSigma = 0.002;  // no surface is flatter: radians, and share of the distance
@@ -66,15 +62,19 @@ void find_extent(const cv::Mat& mask, const Camera& camera, SeenPlane& plane) {
   }
 }
 
-double geometric_mean(const cv::Mat_<float>& depth) {
-  double sum = 0;
+DepthRange range_of(const cv::Mat_<float>& depth) {
+  double sum = 0, squares = 0;
   int count = 0;
   for (const float d : depth) {
     if (!(d > 0) || !std::isfinite(d)) continue;
-    sum += std::log(d);
+    const double log_depth = std::log(d);
+    sum += log_depth;
+    squares += log_depth * log_depth;
     ++count;
   }
-  return count > 0 ? std::exp(sum / count) : 0;
+  if (count == 0) return {};
+  const double mean = sum / count;
+  return {mean, std::max(squares / count - mean * mean, 0.0)};
 }
 
 std::optional<SeenPlane> look_at(const DetectedPlane& detected, const Camera& camera,
@@ -113,7 +113,7 @@ KeyframePerception summarize_perception(const DetectedFrame& detected,
   summary.sigma_scale = detected.sigma_scale;
   summary.depth.assign(frame->size(), 0);
   if (detected.depth.type() == CV_32F && !detected.depth.empty()) {
-    summary.mean_depth = geometric_mean(detected.depth);
+    summary.range = range_of(detected.depth);
     const auto pixels = pixels_in_picture(*frame, camera, view, detected.depth.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const float depth = detected.depth.at<float>(pixels[i]);
@@ -135,50 +135,6 @@ KeyframePerception summarize_perception(const DetectedFrame& detected,
   }
   summary.frame = std::move(frame);
   return summary;
-}
-
-PictureScale align_picture(const Map& map, KeyframeId id, const KeyframePerception& seen,
-                           double contrast) {
-  const Keyframe& keyframe = map.keyframes()[id];
-  const SE3 T_cw = keyframe.T_wc.inverse();
-  struct Pair {
-    double mapped, predicted, log_scale;
-  };
-  std::vector<Pair> pairs;
-  std::vector<double> logs;
-  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
-    if (!keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
-    const MapPoint& point = map.points()[keyframe.points[i]];
-    const double depth = (T_cw * point.position).z();
-    if (point.assumed || !(depth > 0)) continue;
-    const double stretched = stretched_depth(seen.depth[i], seen.mean_depth, contrast);
-    logs.push_back(std::log(depth / stretched));
-    pairs.push_back({std::log(depth), std::log(seen.depth[i]), logs.back()});
-  }
-  PictureScale result;
-  result.points = static_cast<int>(logs.size());
-  if (result.points < kMinScalePoints) return result;
-  const double log_scale = median(logs);
-  result.usable = true;
-  result.scale = std::exp(log_scale);
-  result.log_error = robust_spread(std::move(logs));
-  result.contrast = contrast;
-  std::erase_if(pairs, [&](const Pair& p) {
-    return std::abs(p.log_scale - log_scale) > kGate * result.log_error;
-  });
-  if (!(seen.mean_depth > 0) || pairs.empty()) return result;
-  const double n = double(pairs.size());
-  double mapped = 0, predicted = 0;
-  for (const Pair& p : pairs) {
-    mapped += p.mapped / n;
-    predicted += p.predicted / n;
-  }
-  for (const Pair& p : pairs) {
-    result.variance += (p.mapped - mapped) * (p.mapped - mapped) / n;
-    result.covariance += (p.mapped - mapped) * (p.predicted - predicted) / n;
-  }
-  result.predicted = predicted - std::log(seen.mean_depth);
-  return result;
 }
 
 }  // namespace cairn

@@ -91,19 +91,19 @@ void Mapper::join(const KeyframePerception& seen) {
     if (k.frame == seen.frame) keyframe = id;
   });
   if (!keyframe.valid()) return;
-  const PictureScale picture = align_picture(map_, keyframe, seen, scale_.contrast());
-  if (picture.usable) scale_.add(picture, seen.sigma_scale);
-  const double scale = picture.usable ? picture.scale : scale_.picture_scale();
-  if (!(scale > 0)) return;
+  Keyframe& looked_at = map_.keyframes()[keyframe];
+  looked_at.depth = seen.depth;
+  looked_at.depth_range = seen.range;
+  const PictureScale picture = align_picture(map_, keyframe, scale_.contrast());
+  if (picture.usable) scale_.add(looked_at.timestamp(), picture, seen.sigma_scale);
   // A picture that cannot be compared with the map is no surer than its detector's scale.
   const double log_error =
       picture.usable ? picture.log_error : std::max(seen.sigma_scale, kUnknownScale);
-  Keyframe& looked_at = map_.keyframes()[keyframe];
-  looked_at.depth = seen.depth;
-  looked_at.mean_depth = seen.mean_depth;
-  map_.depth_contrast = scale_.contrast();
   looked_at.sigma_depth = log_error;
   looked_at.sigma_depth_scale = std::max(scale_.spread(), kLeastSpread);
+  const double scale = picture.usable ? picture.scale : scale_.picture_scale();
+  if (!(scale > 0)) return;
+  map_.depth_contrast = scale_.contrast();
   map_.units_a_metre = scale_.picture_scale() > 0 ? scale_.picture_scale() : scale;
   const std::vector<PointId> assumed =
       map_planes(map_, keyframe, seen, {scale, map_.units_a_metre, log_error, scale_.spread()},
@@ -137,6 +137,8 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (options_.refine_lens) {
     summary = adjust_fully(map_, options_.adjustment, true, abort);
   }
+  remove_unconfirmed_planes(map_, options_.planes);  // points that were no good are gone by now
+  measure_scale_anew();
   resect_buried_keyframes(map_, buried_);
   publish(map_.newest());
   return summary;
@@ -157,10 +159,17 @@ std::vector<KeyframeId> Mapper::similar_keyframes(const Features& features, int 
   return result;
 }
 
-ScaleEstimate Mapper::scale() const {
-  ScaleEstimate estimate = scale_.estimate();
-  if (estimate.known()) estimate.value = 1 / map_.units_a_metre;
-  return estimate;
+// All pictures against the points as they are now.
+void Mapper::measure_scale_anew() {
+  MetricScale anew;
+  map_.keyframes().for_each([&](KeyframeId id, const Keyframe& keyframe) {
+    const PictureScale picture = align_picture(map_, id, map_.depth_contrast);
+    if (picture.usable) anew.add(keyframe.timestamp(), picture, scale_.sigma());
+  });
+  if (!anew.estimate().known()) return;
+  scale_ = anew;
+  map_.depth_contrast = scale_.contrast();
+  map_.units_a_metre = scale_.picture_scale();
 }
 
 void Mapper::count_visible(std::span<const PointId> visible, std::span<const PointId> found) {

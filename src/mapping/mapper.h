@@ -59,13 +59,14 @@ class Mapper {
   /// The newest snapshot.
   const std::shared_ptr<const MapView>& view() const { return view_; }
   const Map& map() const { return map_; }
-  ScaleEstimate scale() const;
+  ScaleEstimate scale() const { return scale_.estimate(); }
   /// Keyframes that may show the same place: the `count` most alike, best first.
   std::vector<KeyframeId> similar_keyframes(const Features& features, int count) const;
   const std::vector<BuriedKeyframe>& buried() const { return buried_; }
 
  private:
   void measure(PointId id);
+  void measure_scale_anew();
   void publish(KeyframeId reference);
   void cull_recent_points();
   void cull_keyframes();

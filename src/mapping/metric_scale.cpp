@@ -13,6 +13,15 @@ constexpr double kFewSpread = 0.15;
 constexpr double kPriorVariance =
     0.2;  // of the contrast 1: a few pictures with near and far things
 constexpr double kMaxContrast = 2.5;
+constexpr double kErrorsLast = 0.76;  // seconds: of a picture's scale, docs/perception_noise.md
+constexpr double kGate = 3;           // σ
+
+// Robust σ around the median.
+double spread_of(std::vector<WeightedValue> values) {
+  const double middle = median(values);
+  for (WeightedValue& v : values) v.value = std::abs(v.value - middle);
+  return kSigmaOfMedian * median(std::move(values));
+}
 
 }  // namespace
 
@@ -22,9 +31,11 @@ ScaleEstimate given_scale(const ScaleEstimate& found, double factor) {
 
 MetricScale::MetricScale() : variance_(kPriorVariance), covariance_(kPriorVariance) {}
 
-void MetricScale::add(const PictureScale& picture, double sigma) {
+void MetricScale::add(double time, const PictureScale& picture, double sigma) {
   if (!std::isfinite(picture.scale) || !(picture.scale > 0)) return;
-  pictures_.push_back({std::log(picture.scale), picture.contrast, picture.predicted});
+  const auto later = std::find_if(pictures_.begin(), pictures_.end(),
+                                  [&](const Picture& p) { return p.time > time; });
+  pictures_.insert(later, {time, picture});
   sigma_ = std::max(sigma_, sigma);
   if (!(sigma > 0) || !std::isfinite(picture.variance + picture.covariance)) return;
   variance_ += picture.variance;
@@ -35,30 +46,51 @@ double MetricScale::contrast() const {
   return covariance_ > 0 ? std::clamp(variance_ / covariance_, 1.0, kMaxContrast) : kMaxContrast;
 }
 
-std::vector<double> MetricScale::logs() const {
-  std::vector<double> logs;
-  logs.reserve(pictures_.size());
-  for (const Picture& p : pictures_) {
-    logs.push_back(p.log_scale - (contrast() - p.contrast) * p.predicted);
+// Each picture is worth half of what is new on either side. (The weights of the best mean are the
+// inverse of the matrix exp(-|t_i - t_k| / τ), which is tridiagonal, times ones.)
+std::vector<WeightedValue> MetricScale::scales() const {
+  std::vector<WeightedValue> scales;
+  scales.reserve(pictures_.size());
+  const double with = contrast();
+  for (const Picture& p : pictures_) scales.push_back({p.scale.log_scale(with), 0});
+  if (scales.empty()) return scales;
+  scales.front().weight = 0.5;
+  scales.back().weight += 0.5;
+  for (std::size_t i = 1; i < scales.size(); ++i) {
+    const double apart = pictures_[i].time - pictures_[i - 1].time;
+    const double anew = std::tanh(apart / (2 * kErrorsLast));
+    scales[i - 1].weight += anew / 2;
+    scales[i].weight += anew / 2;
   }
-  return logs;
+  return scales;
 }
 
 double MetricScale::picture_scale() const {
-  std::vector<double> values = logs();
-  return values.empty() ? 0 : std::exp(median(values));
+  if (pictures_.empty()) return 0;
+  std::vector<WeightedValue> values = scales();
+  const double middle = median(values), width = kGate * spread_of(values);
+  std::erase_if(values, [&](const WeightedValue& v) { return std::abs(v.value - middle) > width; });
+  double sum = 0, weight = 0;
+  for (const WeightedValue& v : values) {
+    sum += v.weight * v.value;
+    weight += v.weight;
+  }
+  return std::exp(sum / weight);
 }
 
 double MetricScale::spread() const {
-  return pictures_.size() < kFewPictures ? kFewSpread : robust_spread(logs());
+  return pictures_.size() < kFewPictures ? kFewSpread : spread_of(scales());
 }
 
 ScaleEstimate MetricScale::estimate() const {
   if (pictures_.empty()) return {};
+  const std::vector<WeightedValue> values = scales();
+  double independent = 0;
+  for (const WeightedValue& v : values) independent += v.weight;
   ScaleEstimate estimate;
   estimate.how = sigma_ > 0 ? "predicted depth" : "measured depth";
   estimate.value = 1 / picture_scale();
-  estimate.sigma = std::hypot(sigma_, robust_spread(logs()) / std::sqrt(double(pictures_.size())));
+  estimate.sigma = std::hypot(sigma_, spread_of(values) / std::sqrt(independent));
   estimate.pictures = static_cast<int>(pictures_.size());
   return estimate;
 }

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cairn/mapping/keyframe_perception.h"
+#include "cairn/geometry/median.h"
+#include "cairn/mapping/picture_scale.h"
 
 namespace cairn {
 
@@ -25,16 +26,19 @@ ScaleEstimate given_scale(const ScaleEstimate& found, double factor);
 class MetricScale {
  public:
   MetricScale();
-  /// A picture's alignment, and how far off the detector's metre may be in a scene, of the
-  /// logarithm; 0 where it is measured.
-  void add(const PictureScale& picture, double sigma);
-  /// Of all pictures the median; 0 where there is none yet.
+  /// A picture's time (seconds) and alignment, and how far off the detector's metre may be in a
+  /// scene, of the logarithm; 0 where it is measured.
+  void add(double time, const PictureScale& picture, double sigma);
+  /// Of all pictures the mean of those that agree; 0 where there is none yet. Pictures that follow
+  /// each other err alike: they weigh as for the mean of a process whose correlation falls with
+  /// exp(-t / 0.76 s), so that it has the least variance.
   double picture_scale() const;
   /// How far pictures differ from one another: σ of the logarithm. A guess while they are few.
   double spread() const;
-  /// Metres, from the median over all pictures. Its σ: that of the detector in a scene, which no
-  /// number of pictures makes smaller, and the spread of the pictures over the root of their
-  /// number.
+  /// The largest that came with a picture.
+  double sigma() const { return sigma_; }
+  /// Metres. Its σ: that of the detector in a scene, which no number of pictures makes smaller, and
+  /// the spread of the pictures over the root of the number of independent ones.
   ScaleEstimate estimate() const;
   /// Networks shy away from what is near and what is far: the range of depths in the map over that
   /// in predictions, of logarithms, at least 1. Measured depth has 1.
@@ -42,13 +46,16 @@ class MetricScale {
 
  private:
   struct Picture {
-    double log_scale, contrast, predicted;
+    double time;
+    PictureScale scale;
   };
-  std::vector<double> logs() const;  // of map units a metre, with the contrast of now
+  // With the contrast of now, logarithms of map units a metre, and how much each is worth in
+  // independent pictures.
+  std::vector<WeightedValue> scales() const;
 
-  double sigma_ = 0;  // the largest of all pictures
-  std::vector<Picture> pictures_;
-  double variance_, covariance_;  // of depths in the map and in predictions
+  double sigma_ = 0;
+  std::vector<Picture> pictures_;  // in order of time
+  double variance_, covariance_;   // of depths in the map and in predictions
 };
 
 }  // namespace cairn

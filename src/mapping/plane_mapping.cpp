@@ -194,8 +194,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
   for (std::uint32_t i = 0; poor && i < keyframe.points.size(); ++i) {
     if (keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
     created.push_back(assume_point(
-        map, id, i,
-        scale.here * stretched_depth(seen.depth[i], seen.mean_depth, map.depth_contrast)));
+        map, id, i, scale.here * stretched_depth(seen.depth[i], seen.range, map.depth_contrast)));
   }
   update_evidence(map, options);
   fuse_planes(map, options.association);

@@ -201,7 +201,7 @@ class Adjustment {
     const auto depth_of = [&](const Edge& edge) {
       const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
       if (keyframe.depth.empty()) return 0.0;
-      return stretched_depth(keyframe.depth[edge.keypoint], keyframe.mean_depth,
+      return stretched_depth(keyframe.depth[edge.keypoint], keyframe.depth_range,
                              map_.depth_contrast);
     };
     std::vector<int> known(keyframes_.size()), passed(keyframes_.size());

@@ -12,7 +12,6 @@ using ::testing::IsEmpty;
 using testing::IsNearPlane;
 using testing::kCamera;
 using testing::point_view;
-using testing::Random;
 using ::testing::SizeIs;
 
 const Camera kLens(Camera::Model::kRadialTangential, 640, 480, kCamera);
@@ -100,6 +99,18 @@ TEST(KeyframePerception, HasTheDepthOfTheDetectorWhereItGivesOne) {
   }
 }
 
+TEST(KeyframePerception, KnowsTheRangeOfAllDepthsOfThePicture) {
+  DetectedFrame frame;
+  frame.depth = cv::Mat(240, 320, CV_32F, cv::Scalar(2));
+  frame.depth.rowRange(0, 60).setTo(0);  // unknown
+  frame.depth.rowRange(60, 120).setTo(NAN);
+  frame.depth.rowRange(120, 180).setTo(8);
+  const DepthRange range = summary_of(frame).range;
+  EXPECT_NEAR(range.mean, std::log(4), 1e-6);
+  EXPECT_NEAR(range.variance, std::log(2) * std::log(2), 1e-6);
+  EXPECT_FALSE(summary_of({}).range.known());
+}
+
 TEST(KeyframePerception, LeavesOutPlanesThatCannotBe) {
   DetectedFrame frame;
   frame.planes.assign(7, detected());
@@ -115,54 +126,6 @@ TEST(KeyframePerception, LeavesOutPlanesThatCannotBe) {
   const KeyframePerception summary = summary_of(frame);
   EXPECT_THAT(summary.planes, IsEmpty());
   for (const float depth : summary.depth) EXPECT_EQ(depth, 0);
-}
-
-// Points between 2 and 6 units away, and their depth as a detector predicts it: 2.5 units are a
-// metre, 2 % noise, and a share far too near.
-struct Pictured {
-  Map map;
-  KeyframePerception seen;
-};
-
-Pictured picture(int count, double outliers) {
-  Random random(8);
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < count; ++i) {
-    const double u = random.uniform(0, 640), v = random.uniform(0, 480), z = random.uniform(2, 6);
-    points.push_back(z * kCamera.unproject({u, v}));
-  }
-  const std::vector<SE3> poses = testing::few_poses(2);
-  Pictured result{testing::map_of(points, poses), {}};
-  for (int i = 0; i < count; ++i) {
-    const double depth = (poses[1].inverse() * points[i]).z();
-    const bool wrong = std::floor((i + 1) * outliers) > std::floor(i * outliers);
-    const double error = wrong ? random.uniform(0.3, 0.7) : std::exp(0.02 * random.gaussian());
-    result.seen.depth.push_back(static_cast<float>(depth / 2.5 * error));
-  }
-  return result;
-}
-
-TEST(AlignPicture, FindsTheScaleDespiteOutliers) {
-  const Pictured p = picture(200, 0.3);
-  const PictureScale scale = align_picture(p.map, p.map.newest(), p.seen);
-  EXPECT_TRUE(scale.usable);
-  EXPECT_EQ(scale.points, 200);
-  EXPECT_NEAR(scale.scale / 2.5, 1, 0.03);
-  EXPECT_GT(scale.log_error, 0.015);
-  EXPECT_LT(scale.log_error, 0.08);
-}
-
-TEST(AlignPicture, KnowsHowWellThePictureFits) {
-  const Pictured p = picture(200, 0);
-  EXPECT_NEAR(align_picture(p.map, p.map.newest(), p.seen).log_error, 0.02, 0.006);
-}
-
-TEST(AlignPicture, RefusesFewPoints) {
-  Pictured p = picture(40, 0);
-  for (std::size_t i = 10; i < 40; ++i) p.seen.depth[i] = 0;  // unknown
-  const PictureScale scale = align_picture(p.map, p.map.newest(), p.seen);
-  EXPECT_FALSE(scale.usable);
-  EXPECT_EQ(scale.points, 10);
 }
 
 }  // namespace
