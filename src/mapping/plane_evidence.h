@@ -33,6 +33,9 @@ class PlaneEvidence {
   void add_place(const Eigen::Vector3d& place, double sigma);
   void add_point(const PlanePoint& point) { points_.push_back(point); }
 
+  /// Unit; of what add_normal() was told.
+  Eigen::Vector3d mean_normal() const { return normals_.normalized(); }
+
   /// The plane of least cost: squares for what pictures say, a Cauchy loss of one σ for points. Its
   /// minima are many: descents begin at `start`, first with a wide loss, and at planes through
   /// three points (RANSAC; Fischler and Bolles 1981), the same ones in every call. None where

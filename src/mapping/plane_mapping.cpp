@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cairn/geometry/median.h"
+#include "cairn/map/plane_labels.h"
 #include "cairn/mapping/plane_refinement.h"
 
 namespace cairn {
@@ -19,6 +20,7 @@ constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
 constexpr double kMaxRelationAngle = 12 * kRadians;
+constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
   return static_cast<int>(
@@ -124,11 +126,12 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
     PlaneId id;
     Eigen::Vector3d normal;
     double sigma;
+    std::string label;
   };
   std::vector<Sure> planes;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     if (!confirmed(map, id, options)) return;
-    planes.push_back({id, map.plane_in_world(id).normal(), landmark.sigma_tilt});
+    planes.push_back({id, map.plane_in_world(id).normal(), landmark.sigma_tilt, landmark.label()});
   });
   const std::vector<RelatedPlanes> before = std::move(map.relations());
   map.relations().clear();
@@ -142,7 +145,11 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
         const bool held = std::any_of(before.begin(), before.end(), [&](const RelatedPlanes& r) {
           return r.a == planes[i].id && r.b == planes[k].id && r.relation == relation;
         });
-        if (off < std::min((held ? 3 : 2) * sigma, kMaxRelationAngle)) {
+        const auto implied = implied_relation(planes[i].label, planes[k].label);
+        if (implied && *implied != relation) continue;
+        const double gate =
+            implied ? kMaxImplied : std::min((held ? 3 : 2) * sigma, kMaxRelationAngle);
+        if (off < gate) {
           map.relations().push_back({planes[i].id, planes[k].id, relation});
           break;
         }

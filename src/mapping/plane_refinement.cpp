@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "cairn/map/plane_labels.h"
 #include "cairn/mapping/plane_evidence.h"
 
 namespace cairn {
@@ -15,10 +16,12 @@ constexpr std::size_t kFewPoints = 6;    // far from the rims: then those at the
 constexpr double kWellKnown = 0.023;     // of its normal, radians
 constexpr double kStructureGate = 2;     // σ of the angle
 constexpr double kMaxStructure = 0.14;   // eight degrees, however little is known
-constexpr int kWellSeen = 3;             // points of a plane, that a picture should show it
-constexpr double kErrorsLast = 1.5;      // seconds
-constexpr double kPixel = 0.7;           // of where a keypoint is, over all its observations
-constexpr double kUnsure = 2;            // points much less sure than surfaces are flat say nothing
+constexpr double kMaxImplied = 0.5;      // thirty degrees, where labels say so
+constexpr std::size_t kManyPoints = 20;
+constexpr int kWellSeen = 3;         // points of a plane, that a picture should show it
+constexpr double kErrorsLast = 1.5;  // seconds
+constexpr double kPixel = 0.7;       // of where a keypoint is, over all its observations
+constexpr double kUnsure = 2;        // points much less sure than surfaces are flat say nothing
 
 // How many pictures without common errors the observations of a plane are worth: those of a network
 // change within a second or two (docs/perception_noise.md).
@@ -66,17 +69,29 @@ PlaneEvidence pictures_of(const Map& map, PlaneId id) {
 }
 
 // Of a plane of which little is known: if it is parallel or perpendicular to well-known ones, as
-// far as can be told, it is.
-void add_structure(const Map& map, const Plane& plane, double sigma, PlaneEvidence& evidence) {
-  map.planes().for_each([&](PlaneId id, const PlaneLandmark& known) {
-    if (!known.confirmed) return;
-    const Eigen::Vector3d n = map.plane_in_world(id).normal();
-    const double cosine = std::clamp(plane.normal().dot(n), -1.0, 1.0);
+// far as can be told, it is. Where labels say how the two stand, only the normals of its pictures
+// must not deny it, as a few points may be of anything. Many may not: what they deny is then for
+// the adjustment to mend, as it may be drift between the two.
+void add_structure(const Map& map, PlaneId id, const Plane& plane, PlaneEvidence& evidence) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  const Eigen::Vector3d seen = evidence.mean_normal();
+  const double sigma = evidence.sigma_angle(plane, middle_of(map.outline_in_world(id)));
+  const bool few = landmark.points.size() < kManyPoints;
+  map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
+    if (!known.confirmed || other == id) return;
+    const Eigen::Vector3d n = map.plane_in_world(other).normal();
+    const auto implied =
+        few ? implied_relation(landmark.label(), known.label()) : std::optional<PlaneRelation>();
     const double gate =
-        std::min(kStructureGate * std::hypot(sigma, known.sigma_tilt), kMaxStructure);
+        implied ? kMaxImplied
+                : std::min(kStructureGate * std::hypot(sigma, known.sigma_tilt), kMaxStructure);
+    const double cosine = std::clamp((implied ? seen : plane.normal()).dot(n), -1.0, 1.0);
     const double sure = std::hypot(kMinTiltSigma, known.sigma_tilt);
-    if (std::acos(std::abs(cosine)) < gate) evidence.add_normal(cosine < 0 ? -n : n, sure);
-    if (std::asin(std::abs(cosine)) < gate) evidence.add_direction(n, sure);
+    const auto may_be = [&](PlaneRelation relation) { return !implied || *implied == relation; };
+    if (may_be(PlaneRelation::kParallel) && std::acos(std::abs(cosine)) < gate)
+      evidence.add_normal(cosine < 0 ? -n : n, sure);
+    if (may_be(PlaneRelation::kPerpendicular) && std::asin(std::abs(cosine)) < gate)
+      evidence.add_direction(n, sure);
   });
 }
 
@@ -87,13 +102,12 @@ double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double p
   for (const PointId p : points) evidence.add_point(plane_point(map, p, point_sigma));
   PlaneLandmark& landmark = map.planes()[id];
   Plane plane = map.plane_in_world(id);
-  const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
-  for (int i = 0; i < (manhattan ? 2 : 1); ++i) {
-    if (i > 0) add_structure(map, plane, evidence.sigma_angle(plane, middle), evidence);
-    const auto solved = evidence.solve(plane);
-    if (!solved) break;
-    plane = *solved;
+  plane = evidence.solve(plane).value_or(plane);
+  if (manhattan) {
+    add_structure(map, id, plane, evidence);
+    plane = evidence.solve(plane).value_or(plane);
   }
+  const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
   landmark.plane = plane.transformed(map.keyframes()[landmark.reference].T_wc.inverse());
   return std::hypot(kMinTiltSigma, evidence.sigma_angle(plane, middle));
 }
@@ -112,12 +126,13 @@ double detection_rate(const Map& map, const PlaneLandmark& landmark) {
   return chances > 0 ? double(detections) / chances : 0;
 }
 
-double tilt_sigma(const Map& map, PlaneId id, double point_sigma) {
+double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan) {
   PlaneEvidence evidence = pictures_of(map, id);
   for (const PointId p : map.planes()[id].points) {
     if (!map.points()[p].assumed) evidence.add_point(plane_point(map, p, point_sigma));
   }
   const Plane plane = map.plane_in_world(id);
+  if (manhattan) add_structure(map, id, plane, evidence);
   const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
   return std::hypot(kMinTiltSigma, evidence.sigma_angle(plane, middle));
 }
@@ -186,7 +201,7 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   if (!landmark.confirmed) {
     landmark.sigma_tilt = fit_to(map, id, seen, point_sigma, manhattan);
   } else {
-    landmark.sigma_tilt = tilt_sigma(map, id, point_sigma);
+    landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
   const Plane plane = map.plane_in_world(id);
   const auto [on, sure] = points_on(map, plane, seen, point_sigma);

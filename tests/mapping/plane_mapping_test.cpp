@@ -147,6 +147,27 @@ TEST_F(MapPlanesOfPictures, PlanesAreBoundOnlyWhereTheWorldIsManhattan) {
   }
 }
 
+// 18 degrees from square: too much for geometry alone, as drift may have turned them.
+TEST_F(MapPlanesOfPictures, LabelsBindWhatDriftHasTurned) {
+  const auto ramp = rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, 0.4, 1.2});
+  auto all = grid_on(wall_corners(), 6);
+  const auto on_ramp = grid_on(ramp, 6);
+  all.insert(all.end(), on_ramp.begin(), on_ramp.end());
+  options.manhattan = true;
+  for (const std::string label : {"shelf", "floor"}) {
+    map = map_of(all, few_poses(6));
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(all.size(), 1);  // looked at
+      KeyframePerception seen = perceive(map, id, {wall_corners(), ramp}, 36, 5, 0.04);
+      seen.planes[0].label = "wall";
+      seen.planes[1].label = label;
+      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+    }
+    ASSERT_THAT(planes_of(map), SizeIs(2));
+    EXPECT_THAT(map.relations(), SizeIs(label == "floor" ? 1 : 0)) << label;
+  }
+}
+
 // What 0.3 units are from far away says nothing of shelves that are near.
 TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
   const KeyframeId id = map.first();

@@ -217,5 +217,29 @@ TEST_F(RefineLandmark, IfTheWorldIsManhattanAPlaneWithoutPointsIsTurnedToThoseTh
   EXPECT_LT(off_square(), 0.2 * before);
 }
 
+// Pictures show the wall as a table, and a table of the map is known that stands 15 degrees off it.
+TEST_F(RefineLandmark, WhereLabelsSayHowTwoStandItIsTurnedHoweverFarItIsOff) {
+  const SE3 tilt(so3_exp(Eigen::Vector3d(0.26, 0, 0)), Eigen::Vector3d::Zero());
+  SeenPlane top = seen_from(tilt, rectangle({-1, -1, 3}, {2, 0, 0}, {0, 2, 0}));
+  top.label = "table";
+  const PlaneId known = map.add_plane(map.first(), top);
+  map.planes()[known].sigma_tilt = 0.02;
+  map.planes()[known].confirmed = true;
+  const PlaneId id = see_wall(3, {{}}, {{}});
+  const auto between = [&] {
+    return angle_between(map.plane_in_world(id), map.plane_in_world(known));
+  };
+  for (const std::string label : {"wall", "shelf", "table"}) {
+    map.planes()[id].votes = {{label, 1}};
+    const double before = between();
+    refine_landmark(map, id, 0.01, true);
+    if (label == "table") {
+      EXPECT_LT(between(), 0.3 * before);
+    } else {
+      EXPECT_GT(between(), 0.15) << label;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cairn

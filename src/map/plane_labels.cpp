@@ -1,0 +1,28 @@
+#include "cairn/map/plane_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace cairn {
+namespace {
+
+constexpr std::array<std::string_view, 4> kLevel = {"floor", "rug", "ceiling", "table"};
+constexpr std::array<std::string_view, 6> kUpright = {"wall", "building",   "house",
+                                                      "door", "windowpane", "painting"};
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& labels, const std::string& label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
+
+}  // namespace
+
+std::optional<PlaneRelation> implied_relation(const std::string& a, const std::string& b) {
+  const bool level_a = is_one_of(kLevel, a), level_b = is_one_of(kLevel, b);
+  if (level_a && level_b) return PlaneRelation::kParallel;
+  const bool square = (level_a && is_one_of(kUpright, b)) || (level_b && is_one_of(kUpright, a));
+  return square ? std::optional(PlaneRelation::kPerpendicular) : std::nullopt;
+}
+
+}  // namespace cairn

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cairn/map/plane_landmark.h"
+
+namespace cairn {
+
+/// What two labels say of their surfaces: floors, ceilings and tables are level, walls and doors
+/// upright. None of two upright ones, which may meet at any angle, and of labels that say nothing.
+std::optional<PlaneRelation> implied_relation(const std::string& a, const std::string& b);
+
+}  // namespace cairn
