@@ -101,10 +101,11 @@ void Mapper::join(const KeyframePerception& seen) {
       picture.usable ? picture.log_error : std::max(seen.sigma_scale, kUnknownScale);
   looked_at.sigma_depth = log_error;
   looked_at.sigma_depth_scale = std::max(scale_.spread(), kLeastSpread);
-  const double scale = picture.usable ? picture.scale : scale_.picture_scale();
+  const double everywhere = scale_.picture_scale();
+  const double scale = picture.usable ? picture.scale : everywhere;
   if (!(scale > 0)) return;
   map_.depth_contrast = scale_.contrast();
-  map_.units_a_metre = scale_.picture_scale() > 0 ? scale_.picture_scale() : scale;
+  map_.units_a_metre = everywhere > 0 ? everywhere : scale;
   const std::vector<PointId> assumed =
       map_planes(map_, keyframe, seen, {scale, map_.units_a_metre, log_error, scale_.spread()},
                  options_.planes);
@@ -166,10 +167,11 @@ void Mapper::measure_scale_anew() {
     const PictureScale picture = align_picture(map_, id, map_.depth_contrast);
     if (picture.usable) anew.add(keyframe.timestamp(), picture, scale_.sigma());
   });
-  if (!anew.estimate().known()) return;
-  scale_ = anew;
+  const double units = anew.picture_scale();
+  if (!(units > 0)) return;
+  scale_ = std::move(anew);
   map_.depth_contrast = scale_.contrast();
-  map_.units_a_metre = scale_.picture_scale();
+  map_.units_a_metre = units;
 }
 
 void Mapper::count_visible(std::span<const PointId> visible, std::span<const PointId> found) {

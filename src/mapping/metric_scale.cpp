@@ -33,8 +33,8 @@ MetricScale::MetricScale() : variance_(kPriorVariance), covariance_(kPriorVarian
 
 void MetricScale::add(double time, const PictureScale& picture, double sigma) {
   if (!std::isfinite(picture.scale) || !(picture.scale > 0)) return;
-  const auto later = std::find_if(pictures_.begin(), pictures_.end(),
-                                  [&](const Picture& p) { return p.time > time; });
+  const auto later = std::upper_bound(pictures_.begin(), pictures_.end(), time,
+                                      [](double t, const Picture& p) { return t < p.time; });
   pictures_.insert(later, {time, picture});
   sigma_ = std::max(sigma_, sigma);
   if (!(sigma > 0) || !std::isfinite(picture.variance + picture.covariance)) return;

@@ -139,13 +139,13 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
     for (std::size_t k = i + 1; k < planes.size(); ++k) {
       const double cosine = std::min(std::abs(planes[i].normal.dot(planes[k].normal)), 1.0);
       const double sigma = std::hypot(planes[i].sigma, planes[k].sigma);
+      const auto implied = implied_relation(planes[i].label, planes[k].label);
       for (const auto relation : {PlaneRelation::kParallel, PlaneRelation::kPerpendicular}) {
         const double off =
             relation == PlaneRelation::kParallel ? std::acos(cosine) : std::asin(cosine);
         const bool held = std::any_of(before.begin(), before.end(), [&](const RelatedPlanes& r) {
           return r.a == planes[i].id && r.b == planes[k].id && r.relation == relation;
         });
-        const auto implied = implied_relation(planes[i].label, planes[k].label);
         if (implied && *implied != relation) continue;
         const double gate =
             implied ? kMaxImplied : std::min((held ? 3 : 2) * sigma, kMaxRelationAngle);

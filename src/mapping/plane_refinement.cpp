@@ -68,6 +68,10 @@ PlaneEvidence pictures_of(const Map& map, PlaneId id) {
   return evidence;
 }
 
+double normal_sigma(const Map& map, PlaneId id, const Plane& plane, const PlaneEvidence& evidence) {
+  return evidence.sigma_angle(plane, middle_of(map.outline_in_world(id)));
+}
+
 // Of a plane of which little is known: if it is parallel or perpendicular to well-known ones, as
 // far as can be told, it is. Where labels say how the two stand, only the normals of its pictures
 // must not deny it, as a few points may be of anything. Many may not: what they deny is then for
@@ -75,7 +79,7 @@ PlaneEvidence pictures_of(const Map& map, PlaneId id) {
 void add_structure(const Map& map, PlaneId id, const Plane& plane, PlaneEvidence& evidence) {
   const PlaneLandmark& landmark = map.planes()[id];
   const Eigen::Vector3d seen = evidence.mean_normal();
-  const double sigma = evidence.sigma_angle(plane, middle_of(map.outline_in_world(id)));
+  const double sigma = normal_sigma(map, id, plane, evidence);
   const bool few = landmark.points.size() < kManyPoints;
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     if (!known.confirmed || other == id) return;
@@ -107,9 +111,9 @@ double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double p
     add_structure(map, id, plane, evidence);
     plane = evidence.solve(plane).value_or(plane);
   }
-  const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
+  const double sigma = normal_sigma(map, id, plane, evidence);
   landmark.plane = plane.transformed(map.keyframes()[landmark.reference].T_wc.inverse());
-  return std::hypot(kMinTiltSigma, evidence.sigma_angle(plane, middle));
+  return std::hypot(kMinTiltSigma, sigma);
 }
 
 double detection_rate(const Map& map, const PlaneLandmark& landmark) {
@@ -133,8 +137,7 @@ double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan
   }
   const Plane plane = map.plane_in_world(id);
   if (manhattan) add_structure(map, id, plane, evidence);
-  const Eigen::Vector3d middle = middle_of(map.outline_in_world(id));
-  return std::hypot(kMinTiltSigma, evidence.sigma_angle(plane, middle));
+  return std::hypot(kMinTiltSigma, normal_sigma(map, id, plane, evidence));
 }
 
 struct PointsOnPlane {

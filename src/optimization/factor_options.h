@@ -12,11 +12,11 @@ struct FactorOptions {
 };
 
 struct PlaneFactorOptions {
-  FactorOptions predicted_depth = {.sigma = 2};    ///< times the σ that pictures show
-  FactorOptions observation = {.sigma = 1};        ///< times the σ that detector and picture give
+  FactorOptions predicted_depth = {.sigma = 2};     ///< times the σ that pictures show
+  FactorOptions observation = {.sigma = 1};         ///< times the σ that detector and picture give
   FactorOptions point_on_plane = {.sigma = 0.005};  ///< as a share of the viewing distance
-  FactorOptions parallel = {.sigma = 1};           ///< degrees
-  FactorOptions perpendicular = {.sigma = 1};      ///< degrees
+  FactorOptions parallel = {.sigma = 1};            ///< degrees
+  FactorOptions perpendicular = {.sigma = 1};       ///< degrees
 };
 
 }  // namespace cairn
