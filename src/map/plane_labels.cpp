@@ -18,10 +18,12 @@ bool is_one_of(const std::array<std::string_view, N>& labels, const std::string&
 
 }  // namespace
 
+bool is_upright(const std::string& label) { return is_one_of(kUpright, label); }
+
 std::optional<PlaneRelation> implied_relation(const std::string& a, const std::string& b) {
   const bool level_a = is_one_of(kLevel, a), level_b = is_one_of(kLevel, b);
   if (level_a && level_b) return PlaneRelation::kParallel;
-  const bool square = (level_a && is_one_of(kUpright, b)) || (level_b && is_one_of(kUpright, a));
+  const bool square = (level_a && is_upright(b)) || (level_b && is_upright(a));
   return square ? std::optional(PlaneRelation::kPerpendicular) : std::nullopt;
 }
 

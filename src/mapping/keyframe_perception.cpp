@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "cairn/mapping/hung_things.h"
+
 namespace cairn {
 namespace {
 
@@ -122,9 +124,13 @@ KeyframePerception summarize_perception(const DetectedFrame& detected,
   }
   const auto pixels =
       pixels_in_picture(*frame, camera, view, cv::Size(camera.width(), camera.height()));
-  for (const DetectedPlane& plane : detected.planes) {
-    auto seen = look_at(plane, camera, pixels);
+  const cv::Mat_<int> hung = hung_things(detected.planes, {camera.width(), camera.height()});
+  for (std::size_t index = 0; index < detected.planes.size(); ++index) {
+    auto seen = look_at(detected.planes[index], camera, pixels);
     if (!seen) continue;
+    for (std::uint32_t i = 0; i < pixels.size(); ++i) {
+      if (hung(pixels[i]) == int(index)) seen->keypoints.push_back(i);
+    }
     if (detected.depth.empty()) {
       for (const std::uint32_t i : seen->keypoints) {
         const auto x = meet(seen->plane, view.pinhole().unproject(frame->pixel(i)));

@@ -21,11 +21,17 @@ struct PlanePoint {
   }
 };
 
+/// A plane that explains what is known.
+struct PlaneFit {
+  Plane plane;
+  bool by_points = true;  ///< else points say too little, and it is what pictures say alone
+};
+
 /// All that is known of one plane, in one frame: what pictures say of its normal and its place, and
 /// points of which many lie on it.
 class PlaneEvidence {
  public:
-  /// `normal`: unit; `sigma`: radians, about each axis across it.
+  /// `normal`: unit, to the side that pictures show; `sigma`: radians, about each axis across it.
   void add_normal(const Eigen::Vector3d& normal, double sigma);
   /// A direction (unit) that lies in it; `sigma`: radians.
   void add_direction(const Eigen::Vector3d& direction, double sigma);
@@ -36,19 +42,25 @@ class PlaneEvidence {
   /// Unit; of what add_normal() was told.
   Eigen::Vector3d mean_normal() const { return normals_.normalized(); }
 
-  /// The plane of least cost: squares for what pictures say, a Cauchy loss of one σ for points. Its
-  /// minima are many: descents begin at `start`, first with a wide loss, and at planes through
-  /// three points (RANSAC; Fischler and Bolles 1981), the same ones in every call. None where
-  /// nothing is finite.
-  std::optional<Plane> solve(const Plane& start) const;
-  /// Of a solution: its normal about the two axes across it, the lesser known, radians; its place
-  /// at `at`.
-  double sigma_angle(const Plane& plane, const Eigen::Vector3d& at) const;
-  double sigma_place(const Plane& plane, const Eigen::Vector3d& at) const;
+  /// The plane of least cost: squares for what pictures say, a Cauchy loss of one σ for points,
+  /// more for those behind the plane, which a surface would hide, and the logarithm of how many
+  /// planes were possible for each that now is (Laplace's approximation of the evidence; MacKay
+  /// 1992): three points always lie on a plane, and so say nothing. Its minima are many: descents
+  /// begin at `start`, with a narrow and a wide loss, and at planes through three points (RANSAC;
+  /// Fischler and Bolles 1981), the same ones in every call. Points that are not worth odds of
+  /// twenty to one are left out. None where nothing is finite.
+  std::optional<PlaneFit> solve(const Plane& start) const;
+  /// Of a fit: its normal about the two axes across it, the lesser known, radians; its place at
+  /// `at`.
+  double sigma_angle(const PlaneFit& fit, const Eigen::Vector3d& at) const;
+  double sigma_place(const PlaneFit& fit, const Eigen::Vector3d& at) const;
 
  private:
   struct Step;
   Step step(const Plane& plane, const Eigen::Vector3d& at, double width) const;
+  Eigen::Matrix3d covariance(const PlaneFit& fit, const Eigen::Vector3d& at) const;
+  Eigen::Vector3d foot(const Plane& plane) const;
+  PlaneEvidence without_points() const;
   Plane descend(Plane plane, double width) const;
   double cost(const Plane& plane) const;
 

@@ -105,9 +105,13 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
          landmark.detected >= options.min_detected;
 }
 
-void cull_planes(Map& map, std::uint32_t now, const PlaneMappingOptions& options) {
+void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-    const bool late = now > landmark.last_seen + std::uint32_t(options.probation);
+    const auto seen_lately = [&](const PlaneObservation& o) {
+      return now - map.keyframes()[o.keyframe].timestamp() <= options.probation;
+    };
+    const bool late =
+        std::none_of(landmark.observations.begin(), landmark.observations.end(), seen_lately);
     if (late && !confirmed(map, id, options)) map.erase_plane(id);
   });
 }
@@ -175,8 +179,9 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
     raw.push_back(
         in_units(plane, scale.everywhere, std::hypot(scale.sigma_here, scale.sigma_everywhere)));
     planes.push_back(in_units(plane, scale.here, scale.sigma_here));
-    refine_plane(planes.back(), map.measured_points_at(keyframe, plane.inner),
-                 options.association.point_sigma * planes.back().centroid.norm());
+    refine_plane(planes.back(),
+                 plane_points(map, keyframe, plane.inner, options.association.point_sigma),
+                 options.association.point_sigma);
   }
   const bool poor = measured_points(map, keyframe) < options.few_points;
   std::vector<PointId> created;
@@ -205,7 +210,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
   }
   update_evidence(map, options);
   fuse_planes(map, options.association);
-  cull_planes(map, keyframe.sequence, options);
+  cull_planes(map, keyframe.timestamp(), options);
   if (options.manhattan) relate_planes(map, options);
   std::erase_if(created, [&](PointId p) { return !map.points().contains(p); });
   return created;

@@ -14,7 +14,7 @@ struct PlaneMappingOptions {
   double min_detected = 0.5;      ///< share of the keyframes of its points in which it was detected
   double min_share = 0.6;         ///< of the points in its masks that lie on it
   double max_spread = 0.02;       ///< of its points: those that only cross it are spread wider
-  int probation = 8;  ///< keyframes after its last sighting within which all this must be
+  double probation = 4;           ///< seconds after its last sighting within which all this must be
   /// A keyframe with fewer measured points takes points from planes, without a second view.
   int few_points = 100;
   PlaneAssociationOptions association;

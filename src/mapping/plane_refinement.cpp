@@ -21,6 +21,7 @@ constexpr std::size_t kManyPoints = 20;
 constexpr int kWellSeen = 3;         // points of a plane, that a picture should show it
 constexpr double kErrorsLast = 1.5;  // seconds
 constexpr double kPixel = 0.7;       // of where a keypoint is, over all its observations
+constexpr double kBefore = 0.5;      // things stand in front of surfaces, nothing behind them
 constexpr double kUnsure = 2;        // points much less sure than surfaces are flat say nothing
 
 // How many pictures without common errors the observations of a plane are worth: those of a network
@@ -68,18 +69,19 @@ PlaneEvidence pictures_of(const Map& map, PlaneId id) {
   return evidence;
 }
 
-double normal_sigma(const Map& map, PlaneId id, const Plane& plane, const PlaneEvidence& evidence) {
-  return evidence.sigma_angle(plane, middle_of(map.outline_in_world(id)));
+double normal_sigma(const Map& map, PlaneId id, const PlaneFit& fit,
+                    const PlaneEvidence& evidence) {
+  return evidence.sigma_angle(fit, middle_of(map.outline_in_world(id)));
 }
 
 // Of a plane of which little is known: if it is parallel or perpendicular to well-known ones, as
 // far as can be told, it is. Where labels say how the two stand, only the normals of its pictures
 // must not deny it, as a few points may be of anything. Many may not: what they deny is then for
 // the adjustment to mend, as it may be drift between the two.
-void add_structure(const Map& map, PlaneId id, const Plane& plane, PlaneEvidence& evidence) {
+void add_structure(const Map& map, PlaneId id, const PlaneFit& fit, PlaneEvidence& evidence) {
   const PlaneLandmark& landmark = map.planes()[id];
   const Eigen::Vector3d seen = evidence.mean_normal();
-  const double sigma = normal_sigma(map, id, plane, evidence);
+  const double sigma = normal_sigma(map, id, fit, evidence);
   const bool few = landmark.points.size() < kManyPoints;
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     if (!known.confirmed || other == id) return;
@@ -89,7 +91,7 @@ void add_structure(const Map& map, PlaneId id, const Plane& plane, PlaneEvidence
     const double gate =
         implied ? kMaxImplied
                 : std::min(kStructureGate * std::hypot(sigma, known.sigma_tilt), kMaxStructure);
-    const double cosine = std::clamp((implied ? seen : plane.normal()).dot(n), -1.0, 1.0);
+    const double cosine = std::clamp((implied ? seen : fit.plane.normal()).dot(n), -1.0, 1.0);
     const double sure = std::hypot(kMinTiltSigma, known.sigma_tilt);
     const auto may_be = [&](PlaneRelation relation) { return !implied || *implied == relation; };
     if (may_be(PlaneRelation::kParallel) && std::acos(std::abs(cosine)) < gate)
@@ -105,14 +107,14 @@ double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double p
   PlaneEvidence evidence = pictures_of(map, id);
   for (const PointId p : points) evidence.add_point(plane_point(map, p, point_sigma));
   PlaneLandmark& landmark = map.planes()[id];
-  Plane plane = map.plane_in_world(id);
-  plane = evidence.solve(plane).value_or(plane);
+  PlaneFit fit{map.plane_in_world(id)};
+  fit = evidence.solve(fit.plane).value_or(fit);
   if (manhattan) {
-    add_structure(map, id, plane, evidence);
-    plane = evidence.solve(plane).value_or(plane);
+    add_structure(map, id, fit, evidence);
+    fit = evidence.solve(fit.plane).value_or(fit);
   }
-  const double sigma = normal_sigma(map, id, plane, evidence);
-  landmark.plane = plane.transformed(map.keyframes()[landmark.reference].T_wc.inverse());
+  const double sigma = normal_sigma(map, id, fit, evidence);
+  landmark.plane = fit.plane.transformed(map.keyframes()[landmark.reference].T_wc.inverse());
   return std::hypot(kMinTiltSigma, sigma);
 }
 
@@ -135,25 +137,27 @@ double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan
   for (const PointId p : map.planes()[id].points) {
     if (!map.points()[p].assumed) evidence.add_point(plane_point(map, p, point_sigma));
   }
-  const Plane plane = map.plane_in_world(id);
-  if (manhattan) add_structure(map, id, plane, evidence);
-  return std::hypot(kMinTiltSigma, normal_sigma(map, id, plane, evidence));
+  const PlaneFit fit{map.plane_in_world(id)};
+  if (manhattan) add_structure(map, id, fit, evidence);
+  return std::hypot(kMinTiltSigma, normal_sigma(map, id, fit, evidence));
 }
 
 struct PointsOnPlane {
   std::vector<PointId> on;
-  int sure = 0;  // of all, those whose depth is sure enough to tell
+  int before = 0, behind = 0;
 };
 
+// Of points whose depth is sure enough to tell.
 PointsOnPlane points_on(const Map& map, const Plane& plane, const std::vector<PointId>& points,
                         double point_sigma) {
   PointsOnPlane result;
   for (const PointId p : points) {
     const PlanePoint point = plane_point(map, p, point_sigma);
-    const double sigma = point.sigma_off(plane);
+    const double sigma = point.sigma_off(plane), off = plane.signed_distance(point.position);
     if (sigma > kUnsure * point.sigma) continue;
-    ++result.sure;
-    if (std::abs(plane.signed_distance(point.position)) < kGate * sigma) result.on.push_back(p);
+    result.before += off > kGate * sigma;
+    result.behind += off < -kGate * sigma;
+    if (std::abs(off) <= kGate * sigma) result.on.push_back(p);
   }
   return result;
 }
@@ -173,21 +177,38 @@ void set_members(Map& map, PlaneId id, const std::vector<PointId>& points) {
 
 }  // namespace
 
-int refine_plane(SeenPlane& seen, std::span<const Eigen::Vector3d> points, double sigma) {
+std::vector<PlanePoint> plane_points(const Map& map, const Keyframe& keyframe,
+                                     const std::vector<std::uint32_t>& keypoints,
+                                     double point_sigma) {
+  const SE3 T_kw = keyframe.T_wc.inverse();
+  std::vector<PlanePoint> points;
+  for (const std::uint32_t i : keypoints) {
+    const PointId id = keyframe.points[i];
+    if (!map.points().contains(id) || map.points()[id].assumed) continue;
+    const PlanePoint point = plane_point(map, id, point_sigma);
+    points.push_back({T_kw * point.position, point.sigma, T_kw.rotation() * point.along});
+  }
+  return points;
+}
+
+int refine_plane(SeenPlane& seen, std::span<const PlanePoint> points, double point_sigma) {
+  seen.plane = seen.plane.facing_origin();
   PlaneEvidence evidence;
   evidence.add_normal(seen.plane.normal(), seen.sigma_angle);
   evidence.add_place(seen.centroid, seen.sigma_offset);
-  for (const Eigen::Vector3d& p : points) evidence.add_point({p, sigma});
-  const auto plane = evidence.solve(seen.plane);
-  if (!plane) return 0;
-  const Eigen::Vector3d n = plane->normal();
-  seen.plane = *plane;
-  seen.centroid -= plane->signed_distance(seen.centroid) * n;
-  for (Eigen::Vector3d& corner : seen.outline) corner -= plane->signed_distance(corner) * n;
-  seen.sigma_angle = std::hypot(kMinTiltSigma, evidence.sigma_angle(*plane, seen.centroid));
-  seen.sigma_offset = std::hypot(sigma, evidence.sigma_place(*plane, seen.centroid));
-  return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const auto& p) {
-    return std::abs(plane->signed_distance(p)) < kGate * sigma;
+  for (const PlanePoint& p : points) evidence.add_point(p);
+  const auto fit = evidence.solve(seen.plane);
+  if (!fit) return 0;
+  const Plane& plane = fit->plane;
+  const Eigen::Vector3d n = plane.normal();
+  seen.plane = plane;
+  seen.centroid -= plane.signed_distance(seen.centroid) * n;
+  for (Eigen::Vector3d& corner : seen.outline) corner -= plane.signed_distance(corner) * n;
+  seen.sigma_angle = std::hypot(kMinTiltSigma, evidence.sigma_angle(*fit, seen.centroid));
+  seen.sigma_offset =
+      std::hypot(point_sigma * seen.centroid.norm(), evidence.sigma_place(*fit, seen.centroid));
+  return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const PlanePoint& p) {
+    return std::abs(plane.signed_distance(p.position)) < kGate * p.sigma_off(plane);
   }));
 }
 
@@ -202,13 +223,14 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   std::vector<PointId> seen = measured(false);
   if (seen.size() < kFewPoints) seen = measured(true);
   if (!landmark.confirmed) {
-    landmark.sigma_tilt = fit_to(map, id, seen, point_sigma, manhattan);
+    landmark.sigma_tilt = fit_to(map, id, measured(true), point_sigma, manhattan);
   } else {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
   const Plane plane = map.plane_in_world(id);
-  const auto [on, sure] = points_on(map, plane, seen, point_sigma);
-  landmark.share = sure > 0 ? double(on.size()) / sure : 0;
+  const auto [on, before, behind] = points_on(map, plane, seen, point_sigma);
+  const double count = double(on.size()) + kBefore * before + behind;
+  landmark.share = count > 0 ? double(on.size()) / count : 0;
   // Of a plane that is well known those at the rims are told from what stands in front.
   const bool well_known = landmark.sigma_tilt < kWellKnown;
   set_members(map, id, well_known ? points_on(map, plane, measured(true), point_sigma).on : on);

@@ -57,7 +57,7 @@ OptionTable::OptionTable(Options& o) {
   add("planes.min_share", planes.min_share, "", {0, 1}, "of the points in its masks that lie on a confirmed plane");
   add("planes.max_spread", planes.max_spread, "", {0.001, 1}, "of its points off it, as a share of the viewing distance");
   add("planes.few_points", planes.few_points, "points", {0, 10000}, "measured; a keyframe with fewer takes points from planes and predicted depth");
-  add("planes.probation", planes.probation, "keyframes", {1, 1000}, "after its last sighting within which all this must be reached");
+  add("planes.probation", planes.probation, "s", {0.1, 1000}, "after its last sighting within which all this must be reached");
 
   PlaneFactorOptions& factors = o.mapping.adjustment.planes;
   add_factor("predicted_depth", factors.predicted_depth, "", {0.01, 100}, "what a picture says of the depth of points, times the sigma that pictures show");

@@ -21,5 +21,12 @@ TEST(PlaneLabels, WallsMeetAtAnyAngleAndOtherThingsStandAsTheyLike) {
   EXPECT_EQ(implied_relation("", "floor"), std::nullopt);
 }
 
+TEST(PlaneLabels, WallsAreUprightAndFloorsAreNot) {
+  EXPECT_TRUE(is_upright("wall"));
+  EXPECT_TRUE(is_upright("door"));
+  EXPECT_FALSE(is_upright("floor"));
+  EXPECT_FALSE(is_upright("cabinet"));
+}
+
 }  // namespace
 }  // namespace cairn

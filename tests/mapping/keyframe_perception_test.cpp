@@ -77,6 +77,17 @@ TEST(KeyframePerception, OfAPlaneIsWhatItsMaskShows) {
   EXPECT_NEAR(seen.sigma_offset, 0.04 * seen.centroid.norm(), 1e-12);
 }
 
+TEST(KeyframePerception, CountsWhatHangsOnAWallAmongItsKeypointsAtTheRim) {
+  DetectedFrame frame;
+  frame.planes = {detected()};
+  frame.planes[0].mask(cv::Rect(260, 140, 60, 60)).setTo(0);  // a poster
+  const auto without = summary_of(frame).planes[0];
+  frame.planes[0].label = "wall";
+  const auto with = summary_of(frame).planes[0];
+  EXPECT_EQ(with.keypoints.size(), without.keypoints.size() + 3 * 3);
+  EXPECT_EQ(with.inner, without.inner);
+}
+
 TEST(KeyframePerception, HasTheDepthOfThePlanesWhereTheDetectorGivesNone) {
   DetectedFrame frame;
   frame.planes = {detected()};

@@ -22,13 +22,27 @@ using testing::seen_from;
 using ::testing::SizeIs;
 using testing::wall_corners;
 
-const Plane kWall(Eigen::Vector3d::UnitZ(), -4);
+const Plane kWall(-Eigen::Vector3d::UnitZ(), 4);
+
+std::vector<PlanePoint> with_sigma(double sigma, const std::vector<Eigen::Vector3d>& points) {
+  std::vector<PlanePoint> result;
+  for (const Eigen::Vector3d& x : points) result.push_back({x, sigma});
+  return result;
+}
+
+// Towards a wall that is 3 m off, as one picture shows it, and not at all sure.
+PlaneEvidence one_picture() {
+  PlaneEvidence evidence;
+  evidence.add_normal(-Eigen::Vector3d::UnitZ(), 0.23);
+  evidence.add_place({0, 0, 3}, 0.45);
+  return evidence;
+}
 
 // Of the points 45 of 100 lie on the plane, 40 on another one that is nearer to the prediction.
 TEST(PlaneEvidence, FindsThePlaneOfMostPointsFromFarAway) {
   Random random(3);
   PlaneEvidence evidence;
-  const Plane truth(Eigen::Vector3d(0.3, 0, 0.954).normalized(), -4.4);
+  const Plane truth(-Eigen::Vector3d(0.3, 0, 0.954).normalized(), 4.4);
   const auto add_on = [&](const Plane& plane, int count) {
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d ray(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1);
@@ -36,16 +50,17 @@ TEST(PlaneEvidence, FindsThePlaneOfMostPointsFromFarAway) {
     }
   };
   add_on(truth, 45);
-  add_on(Plane(Eigen::Vector3d::UnitZ(), -4.05), 40);
+  add_on(Plane(-Eigen::Vector3d::UnitZ(), 4.05), 40);
   for (int i = 0; i < 15; ++i) {
     const Eigen::Vector3d ray(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1);
     evidence.add_point({random.uniform(1, 7) * ray, 0.04});
   }
-  evidence.add_normal(Eigen::Vector3d::UnitZ(), 0.3);
+  evidence.add_normal(-Eigen::Vector3d::UnitZ(), 0.3);
   evidence.add_place({0, 0, 4.1}, 0.6);
-  const auto found = evidence.solve(Plane(Eigen::Vector3d::UnitZ(), -4.1));
+  const auto found = evidence.solve(Plane(-Eigen::Vector3d::UnitZ(), 4.1));
   ASSERT_TRUE(found);
-  EXPECT_THAT(*found, IsNearPlane(truth, 1, 0.03));
+  EXPECT_TRUE(found->by_points);
+  EXPECT_THAT(found->plane, IsNearPlane(truth, 1, 0.03));
   EXPECT_LT(evidence.sigma_angle(*found, {0, 0, 4.4}), 0.02);
 }
 
@@ -56,20 +71,60 @@ TEST(PlaneEvidence, ADirectionInThePlaneTurnsItOnlyAsFarAsNeeded) {
   evidence.add_direction(Eigen::Vector3d::UnitX(), 0.01);
   const auto found = evidence.solve(Plane(Eigen::Vector3d(0.2, 0.1, 0.97).normalized(), -2.9));
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->normal().x(), 0, 0.01);
-  EXPECT_NEAR(found->normal().y(), 0.1, 0.01);
-  EXPECT_NEAR(found->signed_distance({0, 0, 3}), 0, 1e-3);
+  EXPECT_NEAR(found->plane.normal().x(), 0, 0.01);
+  EXPECT_NEAR(found->plane.normal().y(), 0.1, 0.01);
+  EXPECT_NEAR(found->plane.signed_distance({0, 0, 3}), 0, 1e-3);
+}
+
+TEST(PlaneEvidence, PointsHereAndThereRarelyTurnAPlane) {
+  Random random(5);
+  int turned = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    PlaneEvidence evidence = one_picture();
+    for (int i = 0; i < 6; ++i) {  // three of them are always on one plane
+      const Eigen::Vector3d ray(random.uniform(-0.4, 0.4), random.uniform(-0.3, 0.3), 1);
+      evidence.add_point({random.uniform(1, 2.5) * ray, 0.01});
+    }
+    const auto found = evidence.solve(Plane(-Eigen::Vector3d::UnitZ(), 3));
+    ASSERT_TRUE(found);
+    turned += found->by_points;
+    if (found->by_points) continue;
+    EXPECT_THAT(found->plane, IsNearPlane(Plane(-Eigen::Vector3d::UnitZ(), 3), 0.1, 1e-3));
+    EXPECT_NEAR(evidence.sigma_angle(*found, {0, 0, 3}), 0.23, 1e-3);
+    EXPECT_NEAR(evidence.sigma_place(*found, {0, 0, 3}), 0.45, 1e-3);
+  }
+  EXPECT_LE(turned, 15);
+}
+
+TEST(PlaneEvidence, PointsOnThePlaneOfThePicturesMakeItSurer) {
+  PlaneEvidence evidence = one_picture();
+  for (int i = 0; i < 8; ++i) evidence.add_point({{0.2 * (i % 4), 0.3 * (i / 4), 3}, 0.02});
+  const auto found = evidence.solve(Plane(-Eigen::Vector3d::UnitZ(), 3));
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->by_points);
+  EXPECT_LT(evidence.sigma_angle(*found, {0, 0, 3}), 0.1);
+  EXPECT_LT(evidence.sigma_place(*found, {0, 0, 3}), 0.03);
+}
+
+TEST(PlaneEvidence, OfTwoPlanesOfAsManyPointsTheOneWithNothingBehindItIsTheSurface) {
+  PlaneEvidence evidence = one_picture();
+  for (const double z : {2.8, 3.1}) {
+    for (int i = 0; i < 12; ++i) evidence.add_point({{0.2 * (i % 4), 0.3 * (i / 4), z}, 0.02});
+  }
+  const auto found = evidence.solve(Plane(-Eigen::Vector3d::UnitZ(), 2.9));
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->plane, IsNearPlane(Plane(-Eigen::Vector3d::UnitZ(), 3.1), 1, 0.02));
 }
 
 TEST(PlaneEvidence, PointsOfUnsureDepthBendNoPlane) {
   PlaneEvidence evidence;
-  evidence.add_normal(Eigen::Vector3d::UnitZ(), 0.05);
+  evidence.add_normal(-Eigen::Vector3d::UnitZ(), 0.05);
   evidence.add_place({0, 0, 4}, 0.05);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Vector3d far(0.1 * i - 1, 0.05 * i, 4.5);
     evidence.add_point({far, 0.04, 0.5 * far});
   }
-  EXPECT_THAT(*evidence.solve(kWall), IsNearPlane(kWall, 1, 0.05));
+  EXPECT_THAT(evidence.solve(kWall)->plane, IsNearPlane(kWall, 1, 0.05));
 }
 
 TEST(RefinePlane, FindsThePlaneOfThePointsDespiteOutliers) {
@@ -93,7 +148,7 @@ TEST(RefinePlane, FindsThePlaneOfThePointsDespiteOutliers) {
   exact.sigma_offset = 0.3;
   SeenPlane seen = disturbed(exact, 15, 0.1);
   ASSERT_GT(angle_between(seen.plane, truth), 0.2);
-  const int count = refine_plane(seen, points, 0.03);
+  const int count = refine_plane(seen, with_sigma(0.03, points), 0.01);
   EXPECT_LT(angle_between(seen.plane, truth) * 180 / M_PI, 2);
   EXPECT_LT(std::abs(seen.plane.signed_distance(middle)), 0.015 * middle.norm());
   EXPECT_GE(count, 38);
@@ -105,7 +160,7 @@ TEST(RefinePlane, FindsThePlaneOfThePointsDespiteOutliers) {
 TEST(RefinePlane, WithoutPointsChangesNothing) {
   const SeenPlane before = disturbed(seen_from(SE3(), wall_corners()), 8, 0.1);
   SeenPlane seen = before;
-  EXPECT_EQ(refine_plane(seen, {}, 0.04), 0);
+  EXPECT_EQ(refine_plane(seen, {}, 0.01), 0);
   EXPECT_THAT(seen.plane, IsNearPlane(before.plane, 1e-6, 1e-9));
   EXPECT_LT((seen.centroid - before.centroid).norm(), 1e-9);
 }
@@ -115,7 +170,7 @@ TEST(RefinePlane, BelievesASurePredictionMoreThanAFewPoints) {
   seen.sigma_angle = 1e-4;
   seen.sigma_offset = 1e-4;
   const std::vector<Eigen::Vector3d> points(3, Eigen::Vector3d(0.5, 0, 4.04));
-  refine_plane(seen, points, 0.04);
+  refine_plane(seen, with_sigma(0.04, points), 0.01);
   EXPECT_THAT(seen.plane, IsNearPlane(kWall, 0.1, 0.001));
 }
 
