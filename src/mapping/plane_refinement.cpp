@@ -21,7 +21,6 @@ constexpr std::size_t kManyPoints = 20;
 constexpr int kWellSeen = 3;         // points of a plane, that a picture should show it
 constexpr double kErrorsLast = 1.5;  // seconds
 constexpr double kPixel = 0.7;       // of where a keypoint is, over all its observations
-constexpr double kBefore = 0.5;      // things stand in front of surfaces, nothing behind them
 constexpr double kUnsure = 2;        // points much less sure than surfaces are flat say nothing
 
 // How many pictures without common errors the observations of a plane are worth: those of a network
@@ -144,20 +143,18 @@ double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan
 
 struct PointsOnPlane {
   std::vector<PointId> on;
-  int before = 0, behind = 0;
+  int sure = 0;  // of all, those whose depth is sure enough to tell
 };
 
-// Of points whose depth is sure enough to tell.
 PointsOnPlane points_on(const Map& map, const Plane& plane, const std::vector<PointId>& points,
                         double point_sigma) {
   PointsOnPlane result;
   for (const PointId p : points) {
     const PlanePoint point = plane_point(map, p, point_sigma);
-    const double sigma = point.sigma_off(plane), off = plane.signed_distance(point.position);
+    const double sigma = point.sigma_off(plane);
     if (sigma > kUnsure * point.sigma) continue;
-    result.before += off > kGate * sigma;
-    result.behind += off < -kGate * sigma;
-    if (std::abs(off) <= kGate * sigma) result.on.push_back(p);
+    ++result.sure;
+    if (std::abs(plane.signed_distance(point.position)) < kGate * sigma) result.on.push_back(p);
   }
   return result;
 }
@@ -228,9 +225,8 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
   const Plane plane = map.plane_in_world(id);
-  const auto [on, before, behind] = points_on(map, plane, seen, point_sigma);
-  const double count = double(on.size()) + kBefore * before + behind;
-  landmark.share = count > 0 ? double(on.size()) / count : 0;
+  const auto [on, sure] = points_on(map, plane, seen, point_sigma);
+  landmark.share = sure > 0 ? double(on.size()) / sure : 0;
   // Of a plane that is well known those at the rims are told from what stands in front.
   const bool well_known = landmark.sigma_tilt < kWellKnown;
   set_members(map, id, well_known ? points_on(map, plane, measured(true), point_sigma).on : on);
