@@ -1,5 +1,6 @@
 #include "cairn/mapping/hung_things.h"
 
+#include <algorithm>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <vector>

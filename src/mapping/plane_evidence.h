@@ -42,13 +42,14 @@ class PlaneEvidence {
   /// Unit; of what add_normal() was told.
   Eigen::Vector3d mean_normal() const { return normals_.normalized(); }
 
-  /// The plane of least cost: squares for what pictures say, a Cauchy loss of one σ for points,
-  /// more for those behind the plane, which a surface would hide, and the logarithm of how many
-  /// planes were possible for each that now is (Laplace's approximation of the evidence; MacKay
-  /// 1992): three points always lie on a plane, and so say nothing. Its minima are many: descents
-  /// begin at `start`, with a narrow and a wide loss, and at planes through three points (RANSAC;
-  /// Fischler and Bolles 1981), the same ones in every call. Points that are not worth odds of
-  /// twenty to one are left out. None where nothing is finite.
+  /// The plane of least cost: squares for what pictures say; for points that they lie on it or
+  /// anywhere else, behind it less likely than before it, as surfaces hide what is behind them
+  /// (descents take a Cauchy loss of one σ in its place); and the logarithm of how many planes were
+  /// possible for each that now is (Laplace's approximation of the evidence; MacKay 1992): three
+  /// points always lie on a plane, and so say nothing. Its minima are many: descents begin at
+  /// `start`, with a narrow and a wide loss, and at planes through three points (RANSAC; Fischler
+  /// and Bolles 1981), the same ones in every call. Points that are not worth odds of twenty to one
+  /// are left out. None where nothing is finite.
   std::optional<PlaneFit> solve(const Plane& start) const;
   /// Of a fit: its normal about the two axes across it, the lesser known, radians; its place at
   /// `at`.

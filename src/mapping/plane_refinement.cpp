@@ -217,10 +217,11 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
     std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });
     return points;
   };
+  const std::vector<PointId> with_rim = measured(true);
   std::vector<PointId> seen = measured(false);
-  if (seen.size() < kFewPoints) seen = measured(true);
+  if (seen.size() < kFewPoints) seen = with_rim;
   if (!landmark.confirmed) {
-    landmark.sigma_tilt = fit_to(map, id, measured(true), point_sigma, manhattan);
+    landmark.sigma_tilt = fit_to(map, id, with_rim, point_sigma, manhattan);
   } else {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
@@ -229,7 +230,7 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   landmark.share = sure > 0 ? double(on.size()) / sure : 0;
   // Of a plane that is well known those at the rims are told from what stands in front.
   const bool well_known = landmark.sigma_tilt < kWellKnown;
-  set_members(map, id, well_known ? points_on(map, plane, measured(true), point_sigma).on : on);
+  set_members(map, id, well_known ? points_on(map, plane, with_rim, point_sigma).on : on);
   landmark.detected = detection_rate(map, landmark);
   map.update_outline(id);
 }
