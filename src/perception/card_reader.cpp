@@ -92,6 +92,12 @@ std::vector<double> CardReader::numbers(const std::string& key, std::size_t coun
   if (!value.IsSequence() || value.size() != count) {
     refuse(key, "must be a list of " + std::to_string(count) + " numbers");
   }
+  return numbers(key, least, most);
+}
+
+std::vector<double> CardReader::numbers(const std::string& key, double least, double most) {
+  const YAML::Node value = get(key);
+  if (!value.IsSequence() || value.size() == 0) refuse(key, "must be a list of numbers");
   std::vector<double> result;
   for (const YAML::Node& item : value) result.push_back(checked(key, item, least, most));
   return result;

@@ -25,6 +25,8 @@ class CardReader {
   double number(const std::string& key, double least, double most);
   double number(const std::string& key, double least, double most, double otherwise);
   std::vector<double> numbers(const std::string& key, std::size_t count, double least, double most);
+  /// One or more.
+  std::vector<double> numbers(const std::string& key, double least, double most);
   std::vector<std::string> texts(const std::string& key);
   bool is_list(const std::string& key) const { return has(key) && node_[key].IsSequence(); }
   /// Throws if there is a key that no getter was asked for.

@@ -4,18 +4,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "cairn/geometry/error.h"
+#include "cairn/perception/darknet_check.h"
 
 namespace cairn {
 namespace {
-
-std::string shape_text(const cv::Mat& output) {
-  std::string text;
-  for (int i = 0; i < output.dims; ++i) {
-    if (i > 0) text += 'x';
-    text += std::to_string(output.size[i]);
-  }
-  return text;
-}
 
 bool is_maps(const cv::Mat& output) {
   return output.dims == 3 || (output.dims == 4 && output.size[0] == 1);
@@ -41,19 +33,31 @@ cv::Mat channel_of(const cv::Mat& output, int index) {
   return cv::Mat(rows, columns, CV_32F, first);
 }
 
-Network::Network(const NetworkCard& card) : card_(card) {
+void Network::load() {
+  const std::string file = card_.file.string();
+  if (!card_.weights.empty()) check_darknet_weights(card_.file, card_.weights);
   try {
-    net_ = cv::dnn::readNet(card.file.string());
+    net_ = card_.weights.empty() ? cv::dnn::readNet(file)
+                                 : cv::dnn::readNetFromDarknet(file, card_.weights.string());
   } catch (const cv::Exception& e) {
-    refuse(card, "cannot be loaded as a network, it may be cut short (" + e.err + ")");
+    refuse(card_, "cannot be loaded as a network, it may be cut short (" + e.err + ")");
+  } catch (const std::exception& e) {  // Darknet layers that refer to none
+    refuse(card_, std::string("cannot be loaded as a network (") + e.what() + ")");
   }
   const std::vector<std::string> there = net_.getUnconnectedOutLayersNames();
-  for (const std::string& name : {card.output, card.masks}) {
-    if (name.empty() || std::find(there.begin(), there.end(), name) != there.end()) continue;
+  for (const std::string& name : {card_.output, card_.masks, card_.scores}) {
+    if (name.empty()) continue;
+    names_.push_back(name);
+    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
     std::string all;
     for (const std::string& output : there) all += " " + output;
-    refuse(card, "has no output \"" + name + "\"; its outputs are:" + all);
+    refuse(card_, "has no output \"" + name + "\"; its outputs are:" + all);
   }
+  if (names_.empty()) names_ = there;
+}
+
+Network::Network(const NetworkCard& card) : card_(card) {
+  load();
   const cv::Mat grey(card.input.size, CV_8UC3, cv::Scalar::all(128));
   const NetworkAnswer answer = run(grey);
   if (!answer.problem.empty()) refuse(card, "cannot be used: " + answer.problem);
@@ -90,6 +94,7 @@ cv::Mat Network::blob(const cv::Mat& bgr) const {
 }
 
 std::string Network::shape_problem(const std::vector<cv::Mat>& outputs) const {
+  if (card_.kind == NetworkCard::Kind::kObjects) return head_problem(card_.head, outputs);
   const cv::Mat& first = outputs[0];
   const auto wrong = [&](const cv::Mat& output, const std::string& wanted) {
     return "its output has the shape " + shape_text(output) + ", but should have " + wanted;
@@ -115,11 +120,9 @@ NetworkAnswer Network::run(const cv::Mat& bgr) {
     return {{}, "the picture is empty or not of 8 bits"};
   }
   NetworkAnswer answer;
-  std::vector<std::string> names = {card_.output};
-  if (!card_.masks.empty()) names.push_back(card_.masks);
   try {
     net_.setInput(blob(bgr));
-    net_.forward(answer.outputs, names);
+    net_.forward(answer.outputs, names_);
   } catch (const cv::Exception& e) {
     return {{}, "it cannot be run (" + e.err + ")"};
   }

@@ -22,19 +22,23 @@ class Network {
   explicit Network(const NetworkCard& card);
 
   const NetworkCard& card() const { return card_; }
-  /// `bgr`: CV_8UC3 or CV_8U (grey), of any size. Outputs: the card's `output`, then its `masks`.
+  /// `bgr`: CV_8UC3 or CV_8U (grey), of any size. Outputs: the card's `output`, then its `masks` or
+  /// `scores`.
   NetworkAnswer run(const cv::Mat& bgr);
   /// A map (CV_32F, one channel, of the network's size), enlarged or reduced to `size`, which
   /// covers all of a picture that has the size `picture`: without the rest of a letterbox.
   cv::Mat to_grid(const cv::Mat& map, const cv::Size& picture, const cv::Size& size) const;
+  /// Pixels of the input, from its top left, that a picture of this size fills.
+  cv::Size scaled(const cv::Size& picture) const;
 
  private:
+  void load();
   cv::Mat blob(const cv::Mat& bgr) const;
-  cv::Size scaled(const cv::Size& picture) const;  // of the picture inside of the input
   std::string shape_problem(const std::vector<cv::Mat>& outputs) const;
 
   NetworkCard card_;
   cv::dnn::Net net_;
+  std::vector<std::string> names_;  // of the outputs that are read
 };
 
 /// Channel `index` of a 1 x C x h x w or C x h x w output as a picture; shares its memory.

@@ -51,12 +51,22 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-void read_labels(CardReader& card, const fs::path& models, NetworkCard& network) {
-  network.labels =
-      card.is_list("labels") ? card.texts("labels") : lines_of(found_file(card, "labels", models));
-  if (network.labels.size() < 2 || network.labels.size() > 255) {
-    card.refuse("labels", "must name 2 to 255 labels");
+void read_labels(CardReader& card, const fs::path& models, std::size_t least, std::size_t most,
+                 NetworkCard& network) {
+  if (card.is_list("labels")) {
+    network.labels = card.texts("labels");
+  } else {
+    const fs::path beside = network.source.parent_path() / card.text("labels");
+    network.labels =
+        lines_of(fs::is_regular_file(beside) ? beside : found_file(card, "labels", models));
   }
+  if (network.labels.size() < least || network.labels.size() > most) {
+    card.refuse("labels",
+                "must name " + std::to_string(least) + " to " + std::to_string(most) + " labels");
+  }
+}
+
+void read_planar(CardReader& card, NetworkCard& network) {
   network.planar = card.texts("planar");
   for (const std::string& label : network.planar) {
     if (std::find(network.labels.begin(), network.labels.end(), label) == network.labels.end()) {
@@ -69,6 +79,34 @@ void read_calibration(CardReader card, NetworkCard& network) {
   network.factor = card.number("factor", 1e-3, 1e3);
   network.factor_sigma = card.number("sigma", 1e-3, 2);
   card.refuse_unknown();
+}
+
+void read_objects(CardReader& card, const fs::path& models, NetworkCard& network) {
+  ObjectHead& head = network.head;
+  head.kind = ObjectHead::Kind(card.word("head", {"yolov3", "yolox", "nanodet", "picodet"}, true));
+  head.input = network.input.size;
+  if (head.kind == ObjectHead::Kind::kYolov3) {
+    head.pixels = card.word("boxes", {"shares", "pixels"}, false) == 1;
+  }
+  if (head.kind == ObjectHead::Kind::kYolox) head.strides = {8, 16, 32};
+  if (head.kind == ObjectHead::Kind::kNanodet) head.strides = {8, 16, 32, 64};
+  if (!head.strides.empty() && card.has("strides")) {
+    const std::vector<double> strides = card.numbers("strides", 1, 256);
+    head.strides.assign(strides.begin(), strides.end());
+  }
+  if (head.kind == ObjectHead::Kind::kPicodet) {
+    network.output = card.text("output");
+    network.scores = card.text("scores");
+  } else {
+    network.output = card.text("output", "");
+  }
+  network.min_score = card.number("min_score", 0, 1, network.min_score);
+  network.nms = card.number("nms", 0, 1, network.nms);
+  read_labels(card, models, 1, 10000, network);
+  head.classes = int(network.labels.size());
+  if (card.has("weights") || fs::path(card.text("file")).extension() == ".cfg") {
+    network.weights = found_file(card, "weights", models);
+  }
 }
 
 }  // namespace
@@ -97,9 +135,9 @@ NetworkCard read_network_card(const fs::path& source, const fs::path& given_mode
   NetworkCard network;
   network.source = source;
   network.name = card.text("name");
-  network.kind =
-      NetworkCard::Kind(card.word("kind", {"depth", "normals", "labels", "planes"}, true));
-  network.output = card.text("output");
+  network.kind = NetworkCard::Kind(
+      card.word("kind", {"depth", "normals", "labels", "planes", "objects"}, true));
+  if (network.kind != NetworkCard::Kind::kObjects) network.output = card.text("output");
   read_input(card.section("input"), network.input);
   const bool metric =
       network.kind == NetworkCard::Kind::kDepth || network.kind == NetworkCard::Kind::kPlanes;
@@ -111,7 +149,11 @@ NetworkCard read_network_card(const fs::path& source, const fs::path& given_mode
   if (network.kind == NetworkCard::Kind::kPlanes || network.kind == NetworkCard::Kind::kNormals) {
     network.axes = NetworkCard::Axes(card.word("axes", {"camera", "forward_y"}, false));
   }
-  if (network.kind == NetworkCard::Kind::kLabels) read_labels(card, models, network);
+  if (network.kind == NetworkCard::Kind::kLabels) {
+    read_labels(card, models, 2, 255, network);
+    read_planar(card, network);
+  }
+  if (network.kind == NetworkCard::Kind::kObjects) read_objects(card, models, network);
   network.file = found_file(card, "file", models);
   card.refuse_unknown();
   return network;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cairn/perception/object_heads.h"
+
 namespace cairn {
 
 /// How a picture becomes the input of a network: float, 1 x 3 x height x width.
@@ -26,6 +28,7 @@ struct NetworkCard {
     kNormals,  ///< `output` 1 x 3 x h x w: in `axes`, of any length
     kLabels,   ///< `output` 1 x labels x h x w: the largest is the label
     kPlanes,   ///< `output` N x 3: n d with n'x = d (in `axes`); `masks` N or N+1 x h x w: logits
+    kObjects,  ///< boxes, as its `head` lays them out
   };
   enum class Axes {
     kCamera,   ///< x right, y down, z forward
@@ -35,20 +38,26 @@ struct NetworkCard {
   std::filesystem::path source;  ///< the card itself
   std::string name;
   Kind kind = Kind::kDepth;
-  std::filesystem::path file;  ///< of the network, found
+  std::filesystem::path file;     ///< of the network, found
+  std::filesystem::path weights;  ///< of a Darknet network, found; empty: `file` has them
   NetworkInput input;
-  std::string output, masks;  ///< names of outputs
+  std::string output, masks;  ///< names of outputs; kObjects: empty for all that there are
+  std::string scores;         ///< the same; only heads with two outputs have it
   double unit = 1;            ///< metres of one unit of the output
   Axes axes = Axes::kCamera;
   double factor = 1;                ///< metres = output * unit * factor
   double factor_sigma = 0.3;        ///< of the logarithm of a picture's true factor around `factor`
-  std::vector<std::string> labels;  ///< by channel
+  std::vector<std::string> labels;  ///< by channel, or by class
   std::vector<std::string> planar;  ///< those of `labels` whose regions may be planes
+  ObjectHead head;
+  double min_score = 0.35;  ///< of an object
+  double nms = 0.5;         ///< of two boxes of a class: overlap (IoU) above which the worse goes
 };
 
 /// Reads a card and finds the network's file in `models`, or, if that is empty, in the folder of
-/// find_models. Throws Error(kUsage), naming file and key, for what is missing, unknown or out of
-/// range; Error(kInput) for a file that is not there.
+/// find_models; a file of labels may also lie beside the card. Throws Error(kUsage), naming file
+/// and key, for what is missing, unknown or out of range; Error(kInput) for a file that is not
+/// there.
 NetworkCard read_network_card(const std::filesystem::path& card,
                               const std::filesystem::path& models = {});
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "cairn/perception/plane_detector.h"
+#include "cairn/perception/recorded_frames.h"
 
 namespace cairn {
 
@@ -19,8 +19,7 @@ class RecordedPlaneDetector : public PlaneDetector {
   DetectedFrame detect(const PerceptionInput& input) override;
 
  private:
-  std::vector<DetectedFrame> frames_;  // by time
-  double max_difference_s_;
+  RecordedFrames frames_;
 };
 
 }  // namespace cairn

@@ -50,7 +50,8 @@ cv::Mat_<uchar> labels_of(const Network& network, const cv::Mat& output, const c
 
 SceneNetwork::SceneNetwork(const std::vector<NetworkCard>& cards) {
   for (const NetworkCard& card : cards) {
-    if (card.kind == NetworkCard::Kind::kPlanes || gives(card.kind)) {
+    if (card.kind == NetworkCard::Kind::kPlanes || card.kind == NetworkCard::Kind::kObjects ||
+        gives(card.kind)) {
       throw Error(Error::Kind::kUsage,
                   card.source.string() +
                       ": the key kind has no place beside the other cards; give one each of depth, "
@@ -95,6 +96,7 @@ SceneMaps SceneNetwork::look(const cv::Mat& bgr, const cv::Size& grid) {
         maps.labels = labels_of(*network, output, bgr.size(), grid);
         break;
       case NetworkCard::Kind::kPlanes:
+      case NetworkCard::Kind::kObjects:
         break;  // refused by the constructor
     }
   }

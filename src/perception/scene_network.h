@@ -20,7 +20,8 @@ struct SceneMaps {
 /// Depth, normals and labels of pictures, each from a network of its own.
 class SceneNetwork {
  public:
-  /// At most one card of a kind; not kPlanes. Throws Error as Network does, kUsage for such cards.
+  /// At most one card of a kind; not kPlanes or kObjects. Throws Error as Network does, kUsage for
+  /// such cards.
   explicit SceneNetwork(const std::vector<NetworkCard>& cards);
 
   /// Maps of the size `grid`. A failing network leaves all maps empty, with a problem.
