@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs cairn on a sequence and shows what came out. Without an argument it runs on a synthetic desk,
-# which it renders once, with what networks would say of it: so planes are seen without any network.
+# which it renders once, with what networks would say of it: so planes and objects are seen without
+# any network.
 # Usage: scripts/demo.sh PROGRAM [SEQUENCE]
 set -euo pipefail
 
@@ -10,7 +11,7 @@ scene=build/demo/desk
 landmarks=() truth=()
 if [ -z "$sequence" ]; then
   sequence=$scene
-  landmarks=(--landmarks ppm --planes recorded)
+  landmarks=(--landmarks full --planes recorded --objects recorded)
   truth=(--world "$scene/world.json")
   # Rendered once, and again when the scene or this script has changed.
   if [ ! -e "$scene/.complete" ] ||
@@ -33,5 +34,5 @@ else
 fi
 echo
 echo "Look into $out: plots/ (path and map from above), map.ply (opens in MeshLab,"
-echo "CloudCompare or Blender), video.mp4 and stills of it in strip.jpg (points, and planes"
-echo "where there are any), and the figures in summary.json."
+echo "CloudCompare or Blender), video.mp4 and stills of it in strip.jpg (points, and planes and"
+echo "objects where there are any), and the figures in summary.json."

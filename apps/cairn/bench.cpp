@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "bench_ellipsoids.h"
 #include "bench_landmarks.h"
 #include "bench_memory.h"
 #include "cairn/datasets/sequence.h"
@@ -163,7 +164,7 @@ Action add_bench(CLI::App& program) {
       "bench", "Prints repeatable tables of speed, memory and sets of landmarks");
   command->add_option("subject", arguments->subject, "what to measure")
       ->required()
-      ->check(CLI::IsMember({"tracking", "memory", "landmarks"}));
+      ->check(CLI::IsMember({"tracking", "memory", "landmarks", "ellipsoids"}));
   command
       ->add_option("--data", arguments->data, "a sequence, repeatable; default: the synthetic desk")
       ->type_name("PATH")
@@ -178,11 +179,15 @@ Action add_bench(CLI::App& program) {
                    "of landmarks: where planes of the sequences come from; default: recorded where "
                    "there is a recording, else network")
       ->check(CLI::IsMember({"network", "rgbd", "recorded"}));
-  command->add_option("--seeds", arguments->seeds, "runs a sequence, each with another seed")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  const CLI::Option* given_seeds =
+      command
+          ->add_option("--seeds", arguments->seeds,
+                       "runs a sequence, each with another seed; of ellipsoids trials a row, " +
+                           std::to_string(kEllipsoidTrials) + " where not given")
+          ->check(CLI::Range(1, 1000))
+          ->capture_default_str();
   command->add_flag("--json", arguments->json, "one JSON object in place of the table");
-  return [arguments] {
+  return [arguments, given_seeds] {
     const auto& [subject, data, groundtruth, planes, seeds, json] = *arguments;
     remember_interrupts();
     if (!groundtruth.empty() && (subject != "landmarks" || data.size() != 1)) {
@@ -194,6 +199,13 @@ Action add_bench(CLI::App& program) {
           Error::Kind::kUsage,
           "--planes: is for `bench landmarks` of sequences, --data PATH; those of synthetic "
           "worlds are simulated");
+    }
+    if (subject == "ellipsoids") {
+      if (!data.empty()) {
+        throw Error(Error::Kind::kUsage,
+                    "--data: `bench ellipsoids` is a simulation; leave it out");
+      }
+      return bench_ellipsoids(given_seeds->count() > 0 ? seeds : kEllipsoidTrials, json);
     }
     if (subject == "tracking") return bench_tracking(*arguments);
     if (subject == "landmarks") return bench_landmarks(data, groundtruth, planes, seeds, json);

@@ -12,10 +12,14 @@
 #include "cairn/evaluation/evaluation.h"
 #include "cairn/geometry/error.h"
 #include "cairn/geometry/median.h"
+#include "cairn/perception/combined_detector.h"
+#include "cairn/perception/network_card.h"
+#include "cairn/perception/object_detectors.h"
 #include "cairn/perception/plane_detectors.h"
 #include "cairn/synthetic/perception_simulator.h"
 #include "commands.h"
 #include "interrupt.h"
+#include "perception_choice.h"
 #include "playback.h"
 #include "progress.h"
 #include "table_name.h"
@@ -30,8 +34,19 @@ struct Set {
   const char* name;
   Landmarks landmarks;
 };
-constexpr Set kSets[] = {
-    {"points", Landmarks::kPoints}, {"pp", Landmarks::kPp}, {"ppm", Landmarks::kPpm}};
+constexpr Set kSets[] = {{"points", Landmarks::kPoints},
+                         {"pp", Landmarks::kPp},
+                         {"ppm", Landmarks::kPpm},
+                         {"po", Landmarks::kPo},
+                         {"full", Landmarks::kFull}};
+
+std::vector<Set> chosen_sets(bool objects) {
+  std::vector<Set> chosen;
+  for (const Set& set : kSets) {
+    if (objects || !has_objects(set.landmarks)) chosen.push_back(set);
+  }
+  return chosen;
+}
 
 // One set on one sequence: a figure a seed.
 struct Row {
@@ -61,9 +76,9 @@ Trajectory truth_of(const World& world, std::size_t frames) {
 }
 
 // What networks would say of the world's pictures.
-class SimulatedPlanes : public PlaneDetector {
+class SimulatedPerception : public PlaneDetector {
  public:
-  SimulatedPlanes(const World& world, const Camera& camera, std::uint64_t seed)
+  SimulatedPerception(const World& world, const Camera& camera, std::uint64_t seed)
       : world_(world),
         camera_(camera),
         simulator_(world.scene(), camera, PerceptionNoise(), seed) {}
@@ -92,17 +107,17 @@ void add_figures(const SlamResult& result, const Trajectory& truth,
 
 // All sets see the same frames, one after the other, so that these are made once.
 template <class MakeDetector>
-void run_sets(FrameSource& frames, const Camera& camera, const Trajectory& truth,
-              std::uint64_t seed, MakeDetector&& detector, Progress& progress,
-              std::span<Row> rows) {
+void run_sets(const std::vector<Set>& sets, FrameSource& frames, const Camera& camera,
+              const Trajectory& truth, std::uint64_t seed, MakeDetector&& detector,
+              Progress& progress, std::span<Row> rows) {
   std::vector<std::unique_ptr<Slam>> systems;
-  for (const Set& set : kSets) {
+  for (const Set& set : sets) {
     Options options;
     options.pace = Pace::kLockstep;
     options.seed = seed;
     options.landmarks = set.landmarks;
     systems.push_back(std::make_unique<Slam>(
-        camera, options, set.landmarks == Landmarks::kPoints ? nullptr : detector()));
+        camera, options, set.landmarks == Landmarks::kPoints ? nullptr : detector(set.landmarks)));
   }
   std::vector<double> times;
   SourceFrame frame;
@@ -123,14 +138,15 @@ void run_sets(FrameSource& frames, const Camera& camera, const Trajectory& truth
   }
 }
 
-std::vector<Row> new_rows(const std::string& sequence) {
+std::vector<Row> new_rows(const std::string& sequence, const std::vector<Set>& sets) {
   std::vector<Row> rows;
-  for (const Set& set : kSets) rows.push_back({sequence, set.name, {}, {}, {}});
+  for (const Set& set : sets) rows.push_back({sequence, set.name, {}, {}, {}});
   return rows;
 }
 
 std::vector<Row> bench_world(SceneKind kind, const std::string& scene, int seeds, bool quiet) {
-  std::vector<Row> rows = new_rows("synthetic " + scene);
+  const std::vector<Set> all = chosen_sets(true);
+  std::vector<Row> rows = new_rows("synthetic " + scene, all);
   const Camera camera = default_camera(kind, 640, 480, true);
   for (int i = 0; i < seeds && !interrupted(); ++i) {
     const auto seed = std::uint64_t(i);
@@ -138,21 +154,56 @@ std::vector<Row> bench_world(SceneKind kind, const std::string& scene, int seeds
     WorldFrames frames(world, camera, default_options(kind));
     Progress progress(!quiet, frames.size());
     run_sets(
-        frames, camera, truth_of(world, *frames.size()), seed,
-        [&] { return std::make_unique<SimulatedPlanes>(world, camera, seed); }, progress, rows);
+        all, frames, camera, truth_of(world, *frames.size()), seed,
+        [&](Landmarks) { return std::make_unique<SimulatedPerception>(world, camera, seed); },
+        progress, rows);
   }
   return rows;
 }
 
+// What a set has need of, from where it is.
+class SequencePerception {
+ public:
+  SequencePerception(const std::string& data, const std::string& planes) {
+    planes_.recorded = std::filesystem::path(data) / "perception.jsonl";
+    const bool recorded = std::filesystem::exists(planes_.recorded);
+    plane_source_ = !planes.empty() ? planes : recorded ? "recorded" : "network";
+    if (recorded) {
+      object_source_ = "recorded";
+    } else if (!find_models(find_card(kObjectsCard)).empty()) {
+      object_source_ = kObjectsCard;
+    }
+  }
+  bool has_depth() const { return plane_source_ == "rgbd"; }
+  bool has_objects() const { return !object_source_.empty(); }
+
+  std::unique_ptr<PlaneDetector> detector(Landmarks landmarks, const Camera& camera) const {
+    std::unique_ptr<PlaneDetector> planes;
+    if (has_planes(landmarks)) planes = make_plane_detector(plane_source_, camera, planes_);
+    if (!cairn::has_objects(landmarks)) return planes;
+    ObjectDetectorSources objects;
+    objects.recorded = planes_.recorded;
+    return std::make_unique<CombinedDetector>(std::move(planes),
+                                              make_object_detector(object_source_, objects));
+  }
+
+ private:
+  PlaneDetectorSources planes_;
+  std::string plane_source_, object_source_;  // of objects: empty where there is none
+};
+
 std::vector<Row> bench_data(const std::string& data, const std::string& groundtruth,
                             const std::string& planes, int seeds, bool quiet) {
-  std::vector<Row> rows = new_rows(data);
-  PlaneDetectorSources sources;
-  sources.recorded = std::filesystem::path(data) / "perception.jsonl";
-  const bool recorded = std::filesystem::exists(sources.recorded);
-  const std::string detector = !planes.empty() ? planes : recorded ? "recorded" : "network";
+  const SequencePerception perception(data, planes);
+  const std::vector<Set> chosen = chosen_sets(perception.has_objects());
+  if (!perception.has_objects()) {
+    std::fprintf(stderr,
+                 "cairn: %s: no networks are given (CAIRN_MODELS), so po and full are left out\n",
+                 data.c_str());
+  }
+  std::vector<Row> rows = new_rows(data, chosen);
   OpenOptions options;
-  options.depth = detector == "rgbd";
+  options.depth = perception.has_depth();
   for (int seed = 0; seed < seeds && !interrupted(); ++seed) {
     const Sequence sequence = open_sequence(data, options);
     const Camera& camera = camera_of(sequence, data);
@@ -163,8 +214,9 @@ std::vector<Row> bench_data(const std::string& data, const std::string& groundtr
         read_groundtruth(groundtruth.empty() ? sequence.groundtruth->string() : groundtruth);
     Progress progress(!quiet, sequence.frames->size());
     run_sets(
-        *sequence.frames, camera, truth, std::uint64_t(seed),
-        [&] { return make_plane_detector(detector, camera, sources); }, progress, rows);
+        chosen, *sequence.frames, camera, truth, std::uint64_t(seed),
+        [&](Landmarks landmarks) { return perception.detector(landmarks, camera); }, progress,
+        rows);
   }
   return rows;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cairn/output/ellipsoid_outline.h"
 #include "cairn/output/outline_projection.h"
 #include "cairn/output/overlay.h"
 
@@ -24,6 +25,16 @@ void add_planes(const FrameResult& result, const MapView* map, const Camera& cam
   }
 }
 
+void add_objects(const FrameResult& result, const MapView* map, const Camera& camera,
+                 FrameOverlay& overlay) {
+  for (const DetectedObject& object : result.objects) overlay.boxes.push_back(object.box);
+  if (map == nullptr || !result.T_wc) return;
+  for (const MapView::ObjectPose& object : map->objects) {
+    auto corners = project_ellipsoid(object.ellipsoid, result.T_wc->inverse(), camera);
+    if (!corners.empty()) overlay.objects.push_back({object.class_name, std::move(corners)});
+  }
+}
+
 }  // namespace
 
 Film::Film(const std::filesystem::path& folder, const Camera& camera, double fps)
@@ -32,6 +43,7 @@ Film::Film(const std::filesystem::path& folder, const Camera& camera, double fps
 void Film::add(const cv::Mat& image, const FrameResult& result, const MapView* map) {
   FrameOverlay overlay;
   add_planes(result, map, camera_, overlay);
+  add_objects(result, map, camera_, overlay);
   for (const auto& f : result.features) overlay.features.push_back({f.x, f.y, f.mapped});
   overlay.state = to_string(result.record.state);
   overlay.matches = result.record.inliers;

@@ -14,8 +14,9 @@ class Film {
  public:
   Film(const std::filesystem::path& folder, const Camera& camera, double fps);
 
-  /// A frame with the planes that were detected in it; where none were, with those of the map,
-  /// which may be null.
+  /// A frame with the planes that were detected in it, or, where none were, with those of the map;
+  /// with the objects of the map, and thinly with the boxes that were detected. The map may be
+  /// null.
   void add(const cv::Mat& image, const FrameResult& result, const MapView* map);
   /// Throws Error(kOutput).
   void finish();

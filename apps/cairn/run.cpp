@@ -5,13 +5,12 @@
 #include "cairn/datasets/groundtruth.h"
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
-#include "cairn/perception/plane_detectors.h"
-#include "cairn/perception/recording_detector.h"
 #include "cairn/system/option_table.h"
 #include "cairn/system/slam.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "output_folder.h"
+#include "perception_choice.h"
 #include "playback.h"
 #include "progress.h"
 #include "run_results.h"
@@ -19,11 +18,10 @@
 namespace cairn::app {
 namespace {
 
-constexpr const char* kLabelsCard = "mosaic_ade20k31";
-
 struct Arguments {
-  std::string sequence, layout = "auto", sensor = "mono", landmarks, planes, objects;
-  std::string models, recorded, record, planenet;
+  std::string sequence, layout = "auto", sensor = "mono";
+  std::string recorded;  // empty: beside the sequence
+  PerceptionChoice perception;
   std::string pace, threads, seed, scale, camera, calibration, config, out, groundtruth;
   std::vector<std::string> settings;
   bool force = false, no_progress = false, video = false;
@@ -40,14 +38,6 @@ void check_available(const Arguments& arguments) {
            ": this version works with one colour camera only; give "
            "--sensor mono");
   }
-  if (arguments.landmarks == "full" || arguments.landmarks == "po") {
-    refuse("--landmarks " + arguments.landmarks +
-           ": this version maps no objects; give --landmarks points, pp or ppm");
-  }
-  if (!arguments.objects.empty() && arguments.objects != "none") {
-    refuse("--objects " + arguments.objects +
-           ": this version maps no objects; give --objects none");
-  }
 }
 
 // The file first, then --set, then the options that have a name of their own.
@@ -59,7 +49,9 @@ Options read_options(const Arguments& arguments) {
   if (!arguments.pace.empty()) table.set("pace", arguments.pace);
   if (!arguments.threads.empty()) table.set("threads", arguments.threads);
   if (!arguments.seed.empty()) table.set("seed", arguments.seed);
-  if (!arguments.landmarks.empty()) table.set("landmarks", arguments.landmarks);
+  if (!arguments.perception.landmarks.empty()) {
+    table.set("landmarks", arguments.perception.landmarks);
+  }
   if (!arguments.scale.empty()) {
     table.set("scale", arguments.scale);
     if (!(options.scale > 0)) {
@@ -76,53 +68,13 @@ Sequence open(const Arguments& arguments) {
   options.layout = arguments.layout;
   options.calibration = arguments.calibration;
   options.intrinsics = arguments.camera;
-  options.depth = arguments.planes == "rgbd";
+  options.depth = arguments.perception.planes == "rgbd";
   return open_sequence(arguments.sequence, options);
 }
 
-bool networks_known() {
-  const char* folder = std::getenv("CAIRN_MODELS");
-  return folder != nullptr && *folder != 0;
-}
-
-// The detector that was asked for. Where nobody asked: networks if somebody has said where they
-// are, else none, and the map is of points.
-std::unique_ptr<PlaneDetector> find_planes(const Arguments& arguments, const Camera& camera,
-                                           RunDescription& description, Progress& progress) {
-  Landmarks& landmarks = description.options.landmarks;
-  const bool none = arguments.planes == "none", points = landmarks == Landmarks::kPoints;
-  if (points && !none && !arguments.planes.empty()) {
-    refuse("--planes " + arguments.planes + ": a map of points has no planes; give --landmarks pp");
-  }
-  if (none && !arguments.landmarks.empty() && !points) {
-    refuse("--landmarks " + arguments.landmarks +
-           ": without planes there is only a map of points; give --landmarks points, or leave out "
-           "--planes none");
-  }
-  if (points || none) {
-    landmarks = Landmarks::kPoints;
-    return nullptr;
-  }
-  // Networks that nobody asked for may be missing; anything else that is wrong is said.
-  const bool asked =
-      !arguments.planes.empty() || !arguments.landmarks.empty() || !arguments.models.empty();
-  if (!asked && !networks_known()) {
-    progress.note("no networks are given (--models, CAIRN_MODELS), so the map is of points alone");
-    landmarks = Landmarks::kPoints;
-    return nullptr;
-  }
-  PlaneDetectorSources sources;
-  sources.models = arguments.models;
-  sources.recorded = arguments.recorded.empty()
-                         ? std::filesystem::path(arguments.sequence) / "perception.jsonl"
-                         : std::filesystem::path(arguments.recorded);
-  sources.planenet_card = arguments.planenet;
-  // Depth has no names; planes get some where there is a network that knows them.
-  if (!arguments.models.empty() || networks_known()) sources.labels_card = kLabelsCard;
-  auto detector =
-      make_plane_detector(arguments.planes.empty() ? "network" : arguments.planes, camera, sources);
-  if (arguments.record.empty()) return detector;
-  return std::make_unique<RecordingDetector>(std::move(detector), arguments.record);
+std::filesystem::path recording(const Arguments& arguments) {
+  if (!arguments.recorded.empty()) return arguments.recorded;
+  return std::filesystem::path(arguments.sequence) / "perception.jsonl";
 }
 
 // A ground truth that was asked for must be readable; one that lies in the sequence need not.
@@ -161,6 +113,7 @@ int run(const Arguments& arguments, const std::string& typed) {
   RunDescription description;
   description.command = typed;
   description.options = read_options(arguments);
+  settle_sources(arguments.perception, description.options.landmarks);
   const Sequence sequence = open(arguments);
   const Camera& camera = camera_of(sequence, arguments.sequence);
   description.sequence = arguments.sequence;
@@ -170,7 +123,8 @@ int run(const Arguments& arguments, const std::string& typed) {
   description.camera = camera;
 
   Progress progress(!arguments.no_progress, sequence.frames->size());
-  std::unique_ptr<PlaneDetector> detector = find_planes(arguments, camera, description, progress);
+  std::unique_ptr<PlaneDetector> detector = find_detector(
+      arguments.perception, recording(arguments), camera, description.options, progress);
   description.groundtruth = find_groundtruth(arguments, sequence, progress);
   description.folder = prepare_output_folder(arguments.out, sequence.name, arguments.force);
 
@@ -218,27 +172,35 @@ void add_input_options(CLI::App& command, Arguments& a) {
 
 void add_system_options(CLI::App& command, Arguments& a) {
   command
-      .add_option("--landmarks", a.landmarks,
+      .add_option("--landmarks", a.perception.landmarks,
                   "what the map is made of: points, points and planes (pp), and Manhattan edges "
-                  "(ppm); objects are not there yet")
+                  "(ppm); points and objects (po); all of these (full)")
       ->check(CLI::IsMember({"full", "points", "pp", "ppm", "po"}));
   command
-      .add_option("--planes", a.planes,
+      .add_option("--planes", a.perception.planes,
                   "where planes come from; default: network where the networks are found")
       ->check(CLI::IsMember({"network", "rgbd", "planenet", "recorded", "none"}));
-  command.add_option("--models", a.models, "the folder of the networks; default: $CAIRN_MODELS")
+  command
+      .add_option("--models", a.perception.models,
+                  "the folder of the networks; default: $CAIRN_MODELS")
       ->type_name("DIR");
   command
       .add_option("--perception", a.recorded,
                   "recorded perception; default: perception.jsonl of the sequence")
       ->type_name("FILE");
   command
-      .add_option("--record-perception", a.record,
+      .add_option("--record-perception", a.perception.record,
                   "write down what the detectors say, for --perception of a later run")
       ->type_name("FILE");
-  command.add_option("--planenet-card", a.planenet, "the card of the network of --planes planenet")
+  command
+      .add_option("--planenet-card", a.perception.planenet,
+                  "the card of the network of --planes planenet")
       ->type_name("CARD");
-  command.add_option("--objects", a.objects, "where objects come from; only none is there yet");
+  command
+      .add_option("--objects", a.perception.objects,
+                  "where objects come from: a network's card, recorded, none; default: "
+                  "nanodet_plus_m where the networks are found")
+      ->type_name("CARD|recorded|none");
   command
       .add_option("--pace", a.pace,
                   "realtime (default): at the sequence's own rate; lockstep: "

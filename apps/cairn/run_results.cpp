@@ -8,9 +8,11 @@
 #include "cairn/evaluation/evaluation.h"
 #include "cairn/geometry/error.h"
 #include "cairn/output/atomic_file.h"
+#include "cairn/output/ellipsoid_mesh.h"
 #include "cairn/output/frames_csv.h"
 #include "cairn/output/label_colour.h"
 #include "cairn/output/map_ply.h"
+#include "cairn/output/objects_json.h"
 #include "cairn/output/planes_json.h"
 #include "cairn/output/plots.h"
 #include "cairn/output/summary.h"
@@ -38,8 +40,6 @@ nlohmann::json options_json(Options options) {
   return json;
 }
 
-bool with_planes(const RunDescription& run) { return run.options.landmarks != Landmarks::kPoints; }
-
 void write_map(const fs::path& file, const SlamResult& result) {
   Eigen::AlignedBox3d space;
   for (const StampedPose& pose : result.trajectory) space.extend(pose.T_wc.translation());
@@ -49,6 +49,10 @@ void write_map(const fs::path& file, const SlamResult& result) {
   for (const auto& point : result.points) model.add_point(point.position, point.colour);
   for (const MappedPlane& plane : result.planes) {
     model.add_polygon(plane.outline, label_colour(plane.label));
+  }
+  for (const MappedObject& object : result.objects) {
+    const TriangleMesh mesh = ellipsoid_mesh(object.ellipsoid);
+    model.add_mesh(mesh.vertices, mesh.triangles, label_colour(object.class_name));
   }
   model.add_path(result.trajectory, {230, 60, 40}, 0.002 * size);
   for (const StampedPose& pose : result.keyframes) {
@@ -96,6 +100,11 @@ PlotScene plot_scene(const RunDescription& run, const SlamResult& result,
     scene.planes.push_back({plane.outline, plane.label, label_colour(plane.label)});
     for (Eigen::Vector3d& corner : scene.planes.back().outline) corner = align * corner;
   }
+  for (const MappedObject& object : result.objects) {
+    scene.objects.push_back({{align * object.ellipsoid.T, align.scale * object.ellipsoid.semi_axes},
+                             object.class_name,
+                             label_colour(object.class_name)});
+  }
   scene.unit = report || result.scale.known() ? "m" : "map units";
   return scene;
 }
@@ -112,6 +121,15 @@ void write_plots(const fs::path& folder, const RunDescription& run, const SlamRe
     for (const StampedPose& pose : report->truth) times.push_back(pose.timestamp);
     write_png(folder / "error.png", draw_error_plot(times, report->errors, run.name));
   }
+}
+
+RunSummary::Scale describe(const ScaleEstimate& scale) {
+  RunSummary::Scale described{
+      scale.how, scale.value, scale.sigma > 0 ? std::optional(scale.sigma) : std::nullopt, {}};
+  for (const auto& part : scale.parts) {
+    described.parts.push_back({part.how, part.value, part.sigma, part.count});
+  }
+  return described;
 }
 
 RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& frames,
@@ -137,11 +155,12 @@ RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& 
   summary.keyframes = result.keyframes.size();
   summary.points = result.points.size();
   summary.planes = result.planes.size();
-  summary.scale = {result.scale.how, result.scale.value,
-                   result.scale.sigma > 0 ? std::optional(result.scale.sigma) : std::nullopt};
+  summary.objects = result.objects.size();
+  summary.scale = describe(result.scale);
   summary.reprojection = {result.reprojection.median_px, result.reprojection.p75_px,
                           result.reprojection.p95_px, result.reprojection.observations};
   if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
+  summary.object_refusals = result.object_refusals;
   summary.problems = playback.problems;
   return summary;
 }
@@ -171,7 +190,9 @@ void RunRecorder::write(const std::vector<FrameRecord>& frames, const SlamResult
   write_trajectory(folder / "trajectory_live.txt", result.trajectory_live);
   write_trajectory(folder / "keyframes.txt", result.keyframes);
   write_frames_csv(folder / "frames.csv", frames);
-  if (with_planes(run_)) write_planes(folder / "planes.json", result.planes);
+  const Landmarks landmarks = run_.options.landmarks;
+  if (has_planes(landmarks)) write_planes(folder / "planes.json", result.planes);
+  if (has_objects(landmarks)) write_objects(folder / "objects.json", result.objects);
   write_map(folder / "map.ply", result);
   const auto report = compare(run_, frames, result);
   write_plots(folder / "plots", run_, result, report);
@@ -199,7 +220,9 @@ void print_outcome(const RunDescription& run, const std::vector<FrameRecord>& fr
   }
   std::printf("  keyframes  %8zu\n", result.keyframes.size());
   std::printf("  points     %8zu\n", result.points.size());
-  if (with_planes(run)) std::printf("  planes     %8zu\n", result.planes.size());
+  const Landmarks landmarks = run.options.landmarks;
+  if (has_planes(landmarks)) std::printf("  planes     %8zu\n", result.planes.size());
+  if (has_objects(landmarks)) std::printf("  objects    %8zu\n", result.objects.size());
   if (result.scale.known()) print_scale(result.scale);
   if (total != stages.end()) {
     std::printf("  tracking   %8.1f  ms a frame (median), %.1f ms (95th percentile)\n",

@@ -32,5 +32,6 @@ using KeyframeId = Id<struct KeyframeTag>;
 using PointId = Id<struct PointTag, 24>;
 /// Rooms have dozens of planes; each of thousands of points may say on which it lies.
 using PlaneId = Id<struct PlaneTag, 16>;
+using ObjectId = Id<struct ObjectTag>;
 
 }  // namespace cairn

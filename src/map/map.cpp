@@ -30,9 +30,11 @@ double stretched_depth(double depth, const DepthRange& range, double contrast) {
 }
 
 void Map::erase_keyframe(KeyframeId id) {
-  if (!planes_.empty()) {
+  if (!planes_.empty() || !objects_.empty()) {
     const auto neighbours = covisible(id, 1);
-    move_planes(id, neighbours.empty() ? KeyframeId{} : neighbours.front().first);
+    const KeyframeId heir = neighbours.empty() ? KeyframeId{} : neighbours.front().first;
+    move_planes(id, heir);
+    move_objects(id, heir);
   }
   const std::vector<PointId> seen = keyframes_[id].points;
   for (const PointId point : seen) {

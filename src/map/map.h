@@ -8,6 +8,7 @@
 #include "cairn/geometry/se3.h"
 #include "cairn/map/frame.h"
 #include "cairn/map/ids.h"
+#include "cairn/map/object_landmark.h"
 #include "cairn/map/plane_landmark.h"
 #include "cairn/map/slot_map.h"
 
@@ -62,7 +63,8 @@ double stretched_depth(double depth, const DepthRange& range, double contrast);
 /// above the mean of `range`.
 double log_stretch(double from_mean, const DepthRange& range, double contrast);
 
-/// Keyframes, points and planes with their observations. Owned and changed by the mapper alone.
+/// Keyframes, points, planes and objects with their observations. Owned and changed by the mapper
+/// alone.
 class Map {
  public:
   explicit Map(const View& view) : view_(view) {}
@@ -87,9 +89,12 @@ class Map {
   std::vector<RelatedPlanes>& relations() { return relations_; }
   const std::vector<RelatedPlanes>& relations() const { return relations_; }
 
+  SlotMap<ObjectLandmark, ObjectId>& objects() { return objects_; }
+  const SlotMap<ObjectLandmark, ObjectId>& objects() const { return objects_; }
+
   KeyframeId add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc);
-  /// Erases a keyframe and its observations; points that nobody else sees go with it. Planes that
-  /// it saw, or that are relative to it, move to the keyframe that shares most points with it.
+  /// Erases a keyframe and its observations; points that nobody else sees go with it. Planes
+  /// that it saw, and what is relative to it, move to the keyframe that shares most points with it.
   void erase_keyframe(KeyframeId id);
 
   PointId add_point(const Eigen::Vector3d& position);
@@ -133,6 +138,19 @@ class Map {
   Plane plane_in_world(PlaneId id) const;
   std::vector<Eigen::Vector3d> outline_in_world(PlaneId id) const;
 
+  /// A new guess of an object with its first observation; `guess` is in the keyframe's frame.
+  ObjectId add_object(KeyframeId keyframe, const SeenObject& seen, const Ellipsoid& guess);
+  /// The keyframe saw an object of the map; of several boxes in one picture the first is kept.
+  void observe_object(ObjectId id, KeyframeId keyframe, const SeenObject& seen);
+  /// `from` becomes part of `into`, whose ellipsoid stays.
+  void merge_objects(ObjectId from, ObjectId into);
+  void erase_object(ObjectId id);
+  /// In the world as it is now.
+  Ellipsoid object_in_world(ObjectId id) const;
+  /// The camera of an observation's picture to the world.
+  SE3 camera_of(const ObjectObservation& o) const;
+  void set_object_in_world(ObjectId id, const Ellipsoid& ellipsoid);
+
   /// Keyframes that share at least `min_shared` points with this one, the most first (then in order
   /// of making).
   std::vector<std::pair<KeyframeId, int>> covisible(KeyframeId id, int min_shared) const;
@@ -146,6 +164,7 @@ class Map {
 
  private:
   void move_planes(KeyframeId from, KeyframeId to);
+  void move_objects(KeyframeId from, KeyframeId to);
   std::vector<Eigen::Vector3d> outline_of(const PlaneLandmark& landmark,
                                           const PlaneObservation& o) const;
 
@@ -155,6 +174,7 @@ class Map {
   SlotMap<MapPoint, PointId> points_;
   SlotMap<PlaneLandmark, PlaneId> planes_;
   std::vector<RelatedPlanes> relations_;
+  SlotMap<ObjectLandmark, ObjectId> objects_;
   std::uint32_t next_sequence_ = 0;
   KeyframeId first_, newest_;
 };

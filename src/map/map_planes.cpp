@@ -87,6 +87,9 @@ void Map::erase_plane(PlaneId id) {
     if (points_[point].assumed) erase_point(point);  // nothing else says where it is
   }
   std::erase_if(relations_, [&](const RelatedPlanes& r) { return r.a == id || r.b == id; });
+  objects_.for_each([&](ObjectId, ObjectLandmark& object) {
+    if (object.support == id) object.support = {};
+  });
   planes_.erase(id);
 }
 

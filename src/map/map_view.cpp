@@ -82,6 +82,11 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
     view->planes.push_back({id, map.plane_in_world(id), landmark.label(), map.outline_in_world(id),
                             landmark.sigma_tilt, landmark.confirmed});
   });
+  map.objects().for_each([&](ObjectId id, const ObjectLandmark& landmark) {
+    if (!landmark.born) return;
+    view->objects.push_back(
+        {id, map.object_in_world(id), landmark.class_name(), landmark.confirmed});
+  });
   std::sort(view->keyframes.begin(), view->keyframes.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   for (const PointId p : map.keyframes()[reference].points) {

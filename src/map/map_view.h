@@ -32,6 +32,13 @@ struct MapView {
     bool confirmed = false;
   };
 
+  struct ObjectPose {
+    ObjectId id;
+    Ellipsoid ellipsoid;  ///< world
+    std::string class_name;
+    bool confirmed = false;
+  };
+
   std::uint64_t version = 0;
   KeyframeId reference;  ///< the keyframe it was made around
   std::shared_ptr<const Frame> reference_frame;
@@ -42,6 +49,7 @@ struct MapView {
   std::vector<Point> points;                      ///< in order of ids
   std::vector<KeyframePose> keyframes;            ///< local ones, in order of ids
   std::vector<PlanePose> planes;                  ///< of the whole map, in order of ids
+  std::vector<ObjectPose> objects;                ///< those that are born, in order of ids
   double units_a_metre = 0;                       ///< of the plane detector; 0: unknown
 
   static constexpr std::uint32_t kNone = 0xffffffffU;

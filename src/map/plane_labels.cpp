@@ -11,6 +11,9 @@ constexpr std::array<std::string_view, 4> kLevel = {"floor", "rug", "ceiling", "
 constexpr std::array<std::string_view, 6> kUpright = {"wall", "building",   "house",
                                                       "door", "windowpane", "painting"};
 
+constexpr std::array<std::string_view, 9> kCarrying = {
+    "floor", "rug", "table", "desk", "counter", "shelf", "bed", "road", "sidewalk"};
+
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& labels, const std::string& label) {
   return std::find(labels.begin(), labels.end(), label) != labels.end();
@@ -19,6 +22,8 @@ bool is_one_of(const std::array<std::string_view, N>& labels, const std::string&
 }  // namespace
 
 bool is_upright(const std::string& label) { return is_one_of(kUpright, label); }
+
+bool carries_things(const std::string& label) { return is_one_of(kCarrying, label); }
 
 std::optional<PlaneRelation> implied_relation(const std::string& a, const std::string& b) {
   const bool level_a = is_one_of(kLevel, a), level_b = is_one_of(kLevel, b);

@@ -14,4 +14,7 @@ std::optional<PlaneRelation> implied_relation(const std::string& a, const std::s
 /// Of walls, doors and the like.
 bool is_upright(const std::string& label);
 
+/// Of what things stand on: floors, tables, roads.
+bool carries_things(const std::string& label);
+
 }  // namespace cairn

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "cairn/mapping/hung_things.h"
+#include "cairn/mapping/seen_objects.h"
 
 namespace cairn {
 namespace {
@@ -139,6 +140,7 @@ KeyframePerception summarize_perception(const DetectedFrame& detected,
     }
     summary.planes.push_back(std::move(*seen));
   }
+  summary.objects = see_objects(detected.objects, *frame, camera, view);
   summary.frame = std::move(frame);
   return summary;
 }

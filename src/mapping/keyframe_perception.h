@@ -17,11 +17,12 @@ struct KeyframePerception {
   std::vector<float> depth;            ///< predicted, one a keypoint; 0: unknown
   DepthRange range;                    ///< of the whole picture's
   std::vector<SeenPlane> planes;
+  std::vector<SeenObject> objects;
 };
 
 /// `camera`: with the lens, as the picture was taken. Where a detector gives no depth, that of the
-/// planes serves. Planes that cannot be (not finite, not in front of the camera, no mask) are left
-/// out.
+/// planes serves. What cannot be (not finite, no area, planes not in front of the camera or without
+/// a mask) is left out.
 KeyframePerception summarize_perception(const DetectedFrame& detected,
                                         std::shared_ptr<const Frame> frame, const Camera& camera,
                                         const View& view);

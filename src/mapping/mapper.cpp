@@ -9,6 +9,7 @@
 #include "cairn/features/retrieval.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
+#include "cairn/mapping/size_scale.h"
 
 namespace cairn {
 namespace {
@@ -91,6 +92,12 @@ void Mapper::join(const KeyframePerception& seen) {
     if (k.frame == seen.frame) keyframe = id;
   });
   if (!keyframe.valid()) return;
+  join_planes(keyframe, seen);
+  join_objects(keyframe, seen);
+  publish(current_);
+}
+
+void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
   Keyframe& looked_at = map_.keyframes()[keyframe];
   looked_at.depth = seen.depth;
   looked_at.depth_range = seen.range;
@@ -115,7 +122,16 @@ void Mapper::join(const KeyframePerception& seen) {
       "{} points assumed",
       seen.planes.size(), seen.frame->timestamp, map_.planes().size(), scale, map_.depth_contrast,
       assumed.size());
-  publish(current_);
+}
+
+void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
+  if (seen.objects.empty() && map_.objects().empty()) return;
+  map_objects(map_, keyframe, seen, options_.objects, object_refusals_);
+  // Where no picture has said what a metre is, things do.
+  if (scale_.picture_scale() > 0) return;
+  if (const ScaleEstimate sizes = scale_from_sizes(map_); sizes.known()) {
+    map_.units_a_metre = 1 / sizes.value;
+  }
 }
 
 void Mapper::adjust(const std::atomic<bool>* abort) {
@@ -130,6 +146,7 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
 AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() < 2) return {};
   remove_unconfirmed_planes(map_, options_.planes);
+  settle_objects(map_, options_.objects);
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
@@ -139,6 +156,7 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
     summary = adjust_fully(map_, options_.adjustment, true, abort);
   }
   remove_unconfirmed_planes(map_, options_.planes);  // points that were no good are gone by now
+  settle_objects(map_, options_.objects);
   measure_scale_anew();
   resect_buried_keyframes(map_, buried_);
   publish(map_.newest());
@@ -159,6 +177,8 @@ std::vector<KeyframeId> Mapper::similar_keyframes(const Features& features, int 
   }
   return result;
 }
+
+ScaleEstimate Mapper::scale() const { return joined(scale_.estimate(), scale_from_sizes(map_)); }
 
 // All pictures against the points as they are now.
 void Mapper::measure_scale_anew() {

@@ -4,8 +4,10 @@
 // pictures: the system room says when to map, the tracker what was seen.
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cairn/map/initial_pair.h"
@@ -13,6 +15,7 @@
 #include "cairn/map/map_view.h"
 #include "cairn/mapping/buried_keyframe.h"
 #include "cairn/mapping/metric_scale.h"
+#include "cairn/mapping/object_mapping.h"
 #include "cairn/mapping/plane_mapping.h"
 #include "cairn/optimization/map_adjustment.h"
 
@@ -27,6 +30,7 @@ struct MappingOptions {
   bool refine_lens = true;        ///< the full adjustment estimates what the calibration got wrong
   AdjustmentOptions adjustment;
   PlaneMappingOptions planes;
+  ObjectMappingOptions objects;
 };
 
 /// A frame that is to become a keyframe, as tracked.
@@ -59,13 +63,17 @@ class Mapper {
   /// The newest snapshot.
   const std::shared_ptr<const MapView>& view() const { return view_; }
   const Map& map() const { return map_; }
-  ScaleEstimate scale() const { return scale_.estimate(); }
+  ScaleEstimate scale() const;
+  /// How often an object could not be born, by reason.
+  const std::map<std::string, int>& object_refusals() const { return object_refusals_; }
   /// Keyframes that may show the same place: the `count` most alike, best first.
   std::vector<KeyframeId> similar_keyframes(const Features& features, int count) const;
   const std::vector<BuriedKeyframe>& buried() const { return buried_; }
 
  private:
   void measure(PointId id);
+  void join_planes(KeyframeId keyframe, const KeyframePerception& seen);
+  void join_objects(KeyframeId keyframe, const KeyframePerception& seen);
   void measure_scale_anew();
   void publish(KeyframeId reference);
   void cull_recent_points();
@@ -74,6 +82,7 @@ class Mapper {
   MappingOptions options_;
   Map map_;
   MetricScale scale_;
+  std::map<std::string, int> object_refusals_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
   KeyframeId current_;

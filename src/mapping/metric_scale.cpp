@@ -26,7 +26,24 @@ double spread_of(std::vector<WeightedValue> values) {
 }  // namespace
 
 ScaleEstimate given_scale(const ScaleEstimate& found, double factor) {
-  return {"given", factor * found.value, 0, found.pictures};
+  return {"given", factor * found.value, 0, found.pictures, found.parts};
+}
+
+ScaleEstimate joined(const ScaleEstimate& pictures, const ScaleEstimate& sizes) {
+  if (!sizes.known() || (pictures.known() && !(pictures.sigma > 0))) return pictures;
+  if (!pictures.known()) return sizes;
+  const double a = std::log(pictures.value), b = std::log(sizes.value);
+  const double wa = 1 / (pictures.sigma * pictures.sigma), wb = 1 / (sizes.sigma * sizes.sigma);
+  ScaleEstimate both = wa > wb ? pictures : sizes;
+  if (std::abs(a - b) < kGate * std::hypot(pictures.sigma, sizes.sigma)) {
+    both.how = pictures.how + " and " + sizes.how;
+    both.value = std::exp((wa * a + wb * b) / (wa + wb));
+    both.sigma = 1 / std::sqrt(wa + wb);
+  }
+  both.pictures = pictures.pictures;
+  both.parts = {{pictures.how, pictures.value, pictures.sigma, pictures.pictures},
+                {sizes.how, sizes.value, sizes.sigma, sizes.pictures}};
+  return both;
 }
 
 MetricScale::MetricScale() : variance_(kPriorVariance), covariance_(kPriorVariance) {}

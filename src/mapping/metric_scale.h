@@ -8,12 +8,21 @@
 
 namespace cairn {
 
+/// What one source says of the scale.
+struct ScalePart {
+  std::string how;
+  double value = 1;
+  double sigma = 0;  ///< relative
+  int count = 0;     ///< pictures or things that had a say
+};
+
 /// Metres a unit of the map.
 struct ScaleEstimate {
-  std::string how = "none";  ///< none (free), predicted depth, given, ...
+  std::string how = "none";  ///< none (free), predicted depth, object sizes, given, ...
   double value = 1;
-  double sigma = 0;  ///< relative; 0 where nothing is known of it
-  int pictures = 0;  ///< that had a say
+  double sigma = 0;                   ///< relative; 0 where nothing is known of it
+  int pictures = 0;                   ///< that had a say
+  std::vector<ScalePart> parts = {};  ///< where there are several, what each said
 
   bool known() const { return how != "none"; }
 };
@@ -21,6 +30,10 @@ struct ScaleEstimate {
 /// The estimate after a user has measured: true lengths are `factor` (more than 0) times those that
 /// it gives. Of the error of that measurement nothing is known.
 ScaleEstimate given_scale(const ScaleEstimate& found, double factor);
+
+/// Both joined, of which either may be unknown: the mean of logarithms that is surest, unless they
+/// contradict each other by more than 3 σ; then the surer one. Measured depth needs no help.
+ScaleEstimate joined(const ScaleEstimate& pictures, const ScaleEstimate& sizes);
 
 /// Collects what pictures say about the unit of the map.
 class MetricScale {

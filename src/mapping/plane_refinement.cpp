@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cairn/map/plane_labels.h"
+#include "cairn/mapping/independent_pictures.h"
 #include "cairn/mapping/plane_evidence.h"
 
 namespace cairn {
@@ -18,26 +19,9 @@ constexpr double kStructureGate = 2;     // σ of the angle
 constexpr double kMaxStructure = 0.14;   // eight degrees, however little is known
 constexpr double kMaxImplied = 0.5;      // thirty degrees, where labels say so
 constexpr std::size_t kManyPoints = 20;
-constexpr int kWellSeen = 3;         // points of a plane, that a picture should show it
-constexpr double kErrorsLast = 1.5;  // seconds
-constexpr double kPixel = 0.7;       // of where a keypoint is, over all its observations
-constexpr double kUnsure = 2;        // points much less sure than surfaces are flat say nothing
-
-// How many pictures without common errors the observations of a plane are worth: those of a network
-// change within a second or two (docs/perception_noise.md).
-double independent_pictures(const Map& map, const PlaneLandmark& landmark) {
-  std::vector<double> times;
-  times.reserve(landmark.observations.size());
-  for (const PlaneObservation& o : landmark.observations) {
-    times.push_back(map.keyframes()[o.keyframe].timestamp());
-  }
-  std::sort(times.begin(), times.end());
-  double independent = 1;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    independent += 1 - std::exp(-(times[i] - times[i - 1]) / kErrorsLast);
-  }
-  return independent;
-}
+constexpr int kWellSeen = 3;    // points of a plane, that a picture should show it
+constexpr double kPixel = 0.7;  // of where a keypoint is, over all its observations
+constexpr double kUnsure = 2;   // points much less sure than surfaces are flat say nothing
 
 // In the world. Its depth is as sure as the rays of its observations are apart.
 PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
@@ -211,7 +195,11 @@ int refine_plane(SeenPlane& seen, std::span<const PlanePoint> points, double poi
 
 void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   PlaneLandmark& landmark = map.planes()[id];
-  landmark.independent = independent_pictures(map, landmark);
+  std::vector<double> times;
+  for (const PlaneObservation& o : landmark.observations) {
+    times.push_back(map.keyframes()[o.keyframe].timestamp());
+  }
+  landmark.independent = independent_pictures(std::move(times));
   const auto measured = [&](bool rim) {
     std::vector<PointId> points = map.points_in_masks(id, rim);
     std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });

@@ -19,4 +19,10 @@ struct PlaneFactorOptions {
   FactorOptions perpendicular = {.sigma = 1};       ///< degrees
 };
 
+struct ObjectFactorOptions {
+  FactorOptions observation = {.sigma = 1};  ///< times the σ of a box's edge
+  FactorOptions size = {.sigma = 1};         ///< times the σ of shape and size (ObjectPrior)
+  FactorOptions support = {.sigma = 0.03};   ///< metres between a thing and what it stands on
+};
+
 }  // namespace cairn

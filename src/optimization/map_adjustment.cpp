@@ -6,20 +6,22 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <optional>
 
 #include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
 #include "cairn/optimization/factors/predicted_depth_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
+#include "cairn/optimization/object_blocks.h"
 #include "cairn/optimization/plane_blocks.h"
+#include "cairn/optimization/pose_blocks.h"
 #include "cairn/optimization/se3_manifold.h"
 
 namespace cairn {
 namespace {
 
-constexpr int kLensGroup = 5, kScaleGroup = 6;  // after those of the planes; see PlaneBlocks
-constexpr int kDepthsAKeyframe = 20;            // what a picture predicts errs alike all over it
-constexpr double kGate = 5.991;                 // χ², 2 degrees of freedom, 95 %
+constexpr int kDepthsAKeyframe = 20;  // what a picture predicts errs alike all over it
+constexpr double kGate = 5.991;       // χ², 2 degrees of freedom, 95 %
 
 // How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
 // errors of a point's observations are alike, so the data are less sure than they look, and the
@@ -31,16 +33,17 @@ constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 
 class Adjustment {
  public:
   Adjustment(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
-             std::vector<PointId> points, const PlaneFactorOptions& planes, bool full = false,
+             std::vector<PointId> points, const AdjustmentOptions& options, bool full = false,
              bool refine_lens = false)
       : map_(map),
         full_(full),
         refine_lens_(refine_lens),
-        depth_options_(planes.predicted_depth),
+        depth_options_(options.planes.predicted_depth),
         lens_(map.lens()),
         keyframes_(std::move(free)),
         points_(std::move(points)),
-        planes_(map, planes) {
+        planes_(map, options.planes),
+        objects_(map, options.objects) {
     free_count_ = keyframes_.size();
     keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
     for (std::size_t i = 0; i < keyframes_.size(); ++i) {
@@ -97,6 +100,7 @@ class Adjustment {
     for (std::size_t i = 0; i < free_count_; ++i) move(&pose_values_[7 * i + 4]);
     for (std::size_t i = 0; i < points_.size(); ++i) move(&point_values_[3 * i]);
     planes_.scale(scale);
+    objects_.scale(scale);
     log_units_ += std::log(scale);
   }
 
@@ -109,6 +113,7 @@ class Adjustment {
       map_.points()[points_[i]].position = Eigen::Vector3d::Map(&point_values_[3 * i]);
     }
     planes_.write_back(map_);
+    objects_.write_back(map_);
     if (full_ && !depth_factors_.empty()) map_.units_a_metre = std::exp(log_units_);
   }
 
@@ -166,13 +171,13 @@ class Adjustment {
     for (std::size_t i = 0; i < keyframes_.size(); ++i) {
       SE3Manifold::pack(map_.keyframes()[keyframes_[i]].T_wc, &pose_values_[7 * i]);
       problem_->AddParameterBlock(&pose_values_[7 * i], 7, &manifold_);
-      ordering_->AddElementToGroup(&pose_values_[7 * i], 1);
+      ordering_->AddElementToGroup(&pose_values_[7 * i], kPoseGroup);
       if (i >= free_count_) problem_->SetParameterBlockConstant(&pose_values_[7 * i]);
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
       Eigen::Vector3d::Map(&point_values_[3 * i]) = map_.points()[points_[i]].position;
       problem_->AddParameterBlock(&point_values_[3 * i], 3);
-      ordering_->AddElementToGroup(&point_values_[3 * i], 0);
+      ordering_->AddElementToGroup(&point_values_[3 * i], kPointGroup);
     }
     if (refine_lens_) ordering_->AddElementToGroup(lens_.values.data(), kLensGroup);
     for (const Edge& edge : observations_) {
@@ -190,7 +195,7 @@ class Adjustment {
       }
     }
     if (depth_options_.use && map_.units_a_metre > 0) add_depths();
-    if (!map_.planes().empty()) add_planes();
+    if (!map_.planes().empty() || !map_.objects().empty()) add_landmarks();
     hold_unit();
     if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
   }
@@ -237,19 +242,19 @@ class Adjustment {
                                &point_values_[std::size_t{3} * edge.point], &log_units_);
   }
 
-  void add_planes() {
-    planes_.add_to(
-        *problem_, *ordering_,
-        [this](KeyframeId id) {
-          const int i = id.slot < index_of_slot_.size() ? index_of_slot_[id.slot] : -1;
-          return i < 0 ? nullptr : &pose_values_[std::size_t(7 * i)];
-        },
-        [this](PointId id) {
-          const auto at = std::lower_bound(points_.begin(), points_.end(), id);
-          return at == points_.end() || *at != id
-                     ? nullptr
-                     : &point_values_[3 * std::size_t(at - points_.begin())];
-        });
+  // Planes first: objects stand on them.
+  void add_landmarks() {
+    poses_.emplace(map_, *problem_, *ordering_, [this](KeyframeId id) {
+      const int i = id.slot < index_of_slot_.size() ? index_of_slot_[id.slot] : -1;
+      return i < 0 ? nullptr : &pose_values_[std::size_t(7 * i)];
+    });
+    planes_.add_to(*problem_, *ordering_, *poses_, [this](PointId id) {
+      const auto at = std::lower_bound(points_.begin(), points_.end(), id);
+      return at == points_.end() || *at != id
+                 ? nullptr
+                 : &point_values_[3 * std::size_t(at - points_.begin())];
+    });
+    objects_.add_to(*problem_, *ordering_, *poses_, planes_);
   }
 
   // With one keyframe held, the scale hangs on the distance to the keyframe that is farthest from
@@ -299,7 +304,9 @@ class Adjustment {
   std::deque<LensPointFactor> lens_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
+  std::optional<PoseBlocks> poses_;
   PlaneBlocks planes_;
+  ObjectBlocks objects_;
   ceres::HuberLoss loss_{std::sqrt(kGate)};
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;
@@ -371,7 +378,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
     fixed.push_back(*oldest);
     free.erase(oldest);
   }
-  Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options.planes);
+  Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options);
   AdjustmentSummary summary = adjustment.solve(options.local_iterations, 1e-4, abort);
   if (!summary.usable) return summary;
   adjustment.write_back();
@@ -391,8 +398,8 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     std::vector<PointId> points;
     map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
     if (free.empty() || points.empty()) return summary;
-    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options.planes,
-                          true, lens);
+    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options, true,
+                          lens);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

@@ -15,6 +15,7 @@ struct AdjustmentOptions {
   int local_iterations = 8;
   int full_iterations = 40;
   PlaneFactorOptions planes;
+  ObjectFactorOptions objects;
 };
 
 struct AdjustmentSummary {

@@ -16,25 +16,22 @@ namespace {
 
 constexpr std::size_t kMinPoints = 3;        // of a plane in the adjustment, that it takes part
 constexpr std::size_t kMaxHeldPoints = 200;  // outside of the adjustment, that hold a plane
-// Groups of blocks, in the order of elimination; points are group 0, poses 1.
-constexpr int kPlaneGroup = 2, kHeldPoseGroup = 3, kHeldPointGroup = 4;
 constexpr double kRadians = std::numbers::pi / 180;
 
 }  // namespace
 
 void PlaneBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
-                         const PoseBlock& pose_of, const PointBlock& point_of) {
+                         PoseBlocks& poses, const PointBlock& point_of) {
   problem_ = &problem;
   ordering_ = &ordering;
-  pose_of_ = pose_of;
+  poses_ = &poses;
   point_of_ = point_of;
   losses_.push_back(std::make_unique<ceres::HuberLoss>(2.0));
   losses_.push_back(std::make_unique<ceres::CauchyLoss>(1.0));
   planes_.reserve(map_.planes().size());
-  held_poses_.reserve(map_.keyframes().size());
   held_points_.reserve(kMaxHeldPoints * map_.planes().size());
   map_.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-    if (!takes_part(landmark, pose_of, point_of)) return;
+    if (!takes_part(landmark)) return;
     Entry& entry = planes_.emplace_back();
     entry.id = id;
     Eigen::Map<Eigen::Vector4d>(entry.values.data()) = landmark.plane.coefficients();
@@ -48,14 +45,13 @@ void PlaneBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering&
   add_relations();
 }
 
-bool PlaneBlocks::takes_part(const PlaneLandmark& landmark, const PoseBlock& pose_of,
-                             const PointBlock& point_of) const {
+bool PlaneBlocks::takes_part(const PlaneLandmark& landmark) const {
   const auto seen =
       std::any_of(landmark.observations.begin(), landmark.observations.end(),
-                  [&](const PlaneObservation& o) { return pose_of(o.keyframe) != nullptr; });
+                  [&](const PlaneObservation& o) { return poses_->own(o.keyframe) != nullptr; });
   if (seen && options_.observation.use) return true;
   std::size_t points = 0;
-  for (const PointId p : landmark.points) points += point_of(p) != nullptr;
+  for (const PointId p : landmark.points) points += point_of_(p) != nullptr;
   return points >= kMinPoints && options_.point_on_plane.use;
 }
 
@@ -73,14 +69,14 @@ void PlaneBlocks::add_observations(Entry& entry) {
           {entry.values.data()});
     } else {
       add(std::make_unique<PlaneObservationFactor>(form, measurement), losses_[0].get(),
-          {pose(landmark.reference), pose(o.keyframe), entry.values.data()});
+          {poses_->at(landmark.reference), poses_->at(o.keyframe), entry.values.data()});
     }
   }
 }
 
 void PlaneBlocks::add_points(Entry& entry) {
   const PlaneLandmark& landmark = map_.planes()[entry.id];
-  double* reference = pose(landmark.reference);
+  double* reference = poses_->at(landmark.reference);
   const double share = std::max(options_.point_on_plane.sigma, landmark.spread);
   std::vector<PointId> outside;
   const auto add_point = [&](PointId id, double* position) {
@@ -98,7 +94,7 @@ void PlaneBlocks::add_points(Entry& entry) {
   const std::size_t n = std::min(outside.size(), kMaxHeldPoints);
   for (std::size_t i = 0; i < n; ++i) {
     const PointId id = outside[i * outside.size() / n];
-    add_point(id, point(id));
+    add_point(id, held_point(id));
   }
 }
 
@@ -113,7 +109,7 @@ void PlaneBlocks::add_relations() {
     const KeyframeId ra = map_.planes()[r.a].reference, rb = map_.planes()[r.b].reference;
     const PlaneFrames frames = ra == rb ? PlaneFrames::kOne : PlaneFrames::kTwo;
     std::vector<double*> blocks = {a->values.data(), b->values.data()};
-    if (ra != rb) blocks = {pose(ra), a->values.data(), pose(rb), b->values.data()};
+    if (ra != rb) blocks = {poses_->at(ra), a->values.data(), poses_->at(rb), b->values.data()};
     if (r.relation == PlaneRelation::kParallel) {
       add(std::make_unique<ParallelPlanesFactor>(options.form, frames, sigma), losses_[0].get(),
           blocks);
@@ -123,26 +119,17 @@ void PlaneBlocks::add_relations() {
   }
 }
 
-double* PlaneBlocks::pose(KeyframeId id) {
-  if (double* block = pose_of_(id)) return block;
-  for (const auto& [held, block] : held_pose_of_) {
-    if (held == id) return block;
-  }
-  double* block = held_poses_.emplace_back().data();
-  SE3Manifold::pack(map_.keyframes()[id].T_wc, block);
-  held_pose_of_.emplace_back(id, block);
-  problem_->AddParameterBlock(block, 7, &pose_manifold_);
-  problem_->SetParameterBlockConstant(block);
-  ordering_->AddElementToGroup(block, kHeldPoseGroup);
-  return block;
-}
-
-double* PlaneBlocks::point(PointId id) {
+double* PlaneBlocks::held_point(PointId id) {
   double* block = held_points_.emplace_back(map_.points()[id].position).data();
   problem_->AddParameterBlock(block, 3);
   problem_->SetParameterBlockConstant(block);
   ordering_->AddElementToGroup(block, kHeldPointGroup);
   return block;
+}
+
+double* PlaneBlocks::block_of(PlaneId id) {
+  Entry* entry = find(id);
+  return entry == nullptr ? nullptr : entry->values.data();
 }
 
 PlaneBlocks::Entry* PlaneBlocks::find(PlaneId id) {

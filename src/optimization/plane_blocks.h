@@ -13,7 +13,7 @@
 #include "cairn/map/map.h"
 #include "cairn/optimization/factor_options.h"
 #include "cairn/optimization/plane_manifold.h"
-#include "cairn/optimization/se3_manifold.h"
+#include "cairn/optimization/pose_blocks.h"
 
 namespace cairn {
 
@@ -21,16 +21,18 @@ namespace cairn {
 /// Keyframes and points that the adjustment does not move hold the planes all the same.
 class PlaneBlocks {
  public:
-  /// Where an adjustment keeps a keyframe's pose or a point's position; null: it does not.
-  using PoseBlock = std::function<double*(KeyframeId)>;
+  /// Where an adjustment keeps a point's position; null: it does not.
   using PointBlock = std::function<double*(PointId)>;
 
   PlaneBlocks(const Map& map, const PlaneFactorOptions& options) : map_(map), options_(options) {}
 
   /// Takes part with the planes that a keyframe of the adjustment sees, or some of its points lie
-  /// on. What it adds to the problem is its own, and must outlive the problem's use.
-  void add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
-              const PoseBlock& pose_of, const PointBlock& point_of);
+  /// on. What it adds to the problem is its own, and must outlive the problem's use, as `poses`
+  /// must.
+  void add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering, PoseBlocks& poses,
+              const PointBlock& point_of);
+  /// Where a plane is kept, for factors of others; null: it takes no part.
+  double* block_of(PlaneId id);
   /// After a change of the map's unit.
   void scale(double factor);
   void write_back(Map& map) const;
@@ -41,14 +43,11 @@ class PlaneBlocks {
     std::array<double, 4> values;
   };
 
-  bool takes_part(const PlaneLandmark& landmark, const PoseBlock& pose_of,
-                  const PointBlock& point_of) const;
+  bool takes_part(const PlaneLandmark& landmark) const;
   void add_observations(Entry& entry);
   void add_points(Entry& entry);
   void add_relations();
-  // The adjustment's own blocks, or ones that are held.
-  double* pose(KeyframeId id);
-  double* point(PointId id);
+  double* held_point(PointId id);
   Entry* find(PlaneId id);
   void add(std::unique_ptr<ceres::CostFunction> factor, ceres::LossFunction* loss,
            const std::vector<double*>& blocks);
@@ -57,18 +56,13 @@ class PlaneBlocks {
   PlaneFactorOptions options_;
   ceres::Problem* problem_ = nullptr;
   ceres::ParameterBlockOrdering* ordering_ = nullptr;
-  PoseBlock pose_of_;
+  PoseBlocks* poses_ = nullptr;
   PointBlock point_of_;
-  // Within a group Ceres orders blocks by their addresses: so each group is one piece of memory,
-  // reserved before it is filled.
-  std::vector<Entry> planes_;
-  std::vector<std::array<double, 7>> held_poses_;
-  std::vector<std::pair<KeyframeId, double*>> held_pose_of_;
+  std::vector<Entry> planes_;  // reserved before they are filled, as all groups: see BlockGroup
   std::vector<Eigen::Vector3d> held_points_;
   std::vector<std::unique_ptr<ceres::CostFunction>> factors_;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
   PlaneManifold plane_manifold_;
-  SE3Manifold pose_manifold_;
 };
 
 }  // namespace cairn

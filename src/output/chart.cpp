@@ -60,6 +60,7 @@ class ChartPainter {
   void widen_to_equal_scale();
   void paint_axes();
   void paint_series(const ChartSeries& series);
+  void paint_inscription(const ChartSeries& series);
   void paint_legend();
   void paint_colour_bar();
 
@@ -176,6 +177,17 @@ void ChartPainter::paint_series(const ChartSeries& series) {
   cv::circle(inside, last, 12 << kShift, series.colour, cv::FILLED, cv::LINE_AA, kShift);
 }
 
+void ChartPainter::paint_inscription(const ChartSeries& series) {
+  if (series.inscription.empty() || series.points.empty()) return;
+  cv::Point2d least = series.points[0], most = least;
+  for (const cv::Point2d& p : series.points) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+  }
+  const cv::Point2d middle = pixel(0.5 * (least + most));
+  if (plot_.contains(middle)) draw_text(canvas_, series.inscription, middle, Anchor::kCentre, 0.7);
+}
+
 void ChartPainter::paint_legend() {
   // In the title's line, from the right: it never hides data there.
   double x = plot_.br().x - (chart_.colour_range ? 70 : 0);  // beside the name of the bar
@@ -215,6 +227,7 @@ void ChartPainter::paint_colour_bar() {
 void ChartPainter::paint() {
   paint_axes();
   for (const ChartSeries& series : chart_.series) paint_series(series);
+  for (const ChartSeries& series : chart_.series) paint_inscription(series);
   paint_legend();
   if (chart_.colour_range) paint_colour_bar();
 }

@@ -28,6 +28,7 @@ struct ChartSeries {
   std::vector<cv::Scalar> colours = {};  ///< of each dot, in place of `colour`
   bool end_markers = false;              ///< a ring at the first point, a dot at the last
   bool filled = false;                   ///< a hint of the colour inside of a closed line
+  std::string inscription = {};          ///< written in the middle of the points
 };
 
 /// One pair of axes with what is drawn in it.

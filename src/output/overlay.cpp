@@ -48,8 +48,24 @@ void draw_mask(const FrameOverlay::Mask& mask, double scale, cv::Mat& canvas) {
 void draw_outline(const FrameOverlay::Outline& outline, double scale, cv::Mat& canvas) {
   std::vector<cv::Point> corners;
   for (const cv::Point2f& c : outline.corners) corners.emplace_back(c * float(1 << kShift));
+  if (corners.empty()) return;
   cv::polylines(canvas, corners, true, colour_of(outline.label), std::max(1, cvRound(1.4 * scale)),
                 cv::LINE_AA, kShift);
+}
+
+// Its middle at `at`, or as near to that as fits into the picture. Light, with a dark rim.
+void draw_name(const std::string& name, cv::Point at, double scale, cv::Mat& canvas) {
+  const double height = 0.42 * scale;
+  int base = 0;
+  const int thin = std::max(1, cvRound(scale));
+  const cv::Size box = cv::getTextSize(name, cv::FONT_HERSHEY_SIMPLEX, height, thin, &base);
+  at.x = std::clamp(at.x - box.width / 2, 2, std::max(2, canvas.cols - box.width - 2));
+  at.y =
+      std::clamp(at.y + box.height / 2, box.height + 2, std::max(box.height + 2, canvas.rows - 4));
+  cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, height, {38, 33, 30}, thin + 2,
+              cv::LINE_AA);
+  cv::putText(canvas, name, at, cv::FONT_HERSHEY_SIMPLEX, height,
+              0.5 * (colour_of(name) + cv::Scalar::all(255)), thin, cv::LINE_AA);
 }
 
 // The name of a surface where it is widest; nothing where it is too small for that.
@@ -61,16 +77,23 @@ void draw_label(const FrameOverlay::Mask& mask, double scale, cv::Mat& canvas) {
   cv::Point at;
   cv::minMaxLoc(distance, nullptr, &widest, nullptr, &at);
   if (widest < 14 * scale) return;
-  const double height = 0.42 * scale;
-  int base = 0;
-  const int thin = std::max(1, cvRound(scale));
-  const cv::Size box = cv::getTextSize(mask.label, cv::FONT_HERSHEY_SIMPLEX, height, thin, &base);
-  const int left = std::clamp(at.x - box.width / 2, 2, std::max(2, canvas.cols - box.width - 2));
-  const cv::Point corner(left, at.y + box.height / 2);
-  cv::putText(canvas, mask.label, corner, cv::FONT_HERSHEY_SIMPLEX, height, {38, 33, 30}, thin + 2,
-              cv::LINE_AA);
-  cv::putText(canvas, mask.label, corner, cv::FONT_HERSHEY_SIMPLEX, height,
-              0.5 * (colour_of(mask.label) + cv::Scalar::all(255)), thin, cv::LINE_AA);
+  draw_name(mask.label, at, scale, canvas);
+}
+
+void draw_box(const Box2& box, cv::Mat& canvas) {
+  const auto fixed = [](double x, double y) {
+    return cv::Point(cvRound(x * (1 << kShift)), cvRound(y * (1 << kShift)));
+  };
+  cv::rectangle(canvas, fixed(box.x0, box.y0), fixed(box.x1, box.y1), colours::kBackground, 1,
+                cv::LINE_AA, kShift);
+}
+
+// Above the thing: there it hides the least of it.
+void draw_object_name(const FrameOverlay::Outline& object, double scale, cv::Mat& canvas) {
+  if (object.corners.empty()) return;
+  const cv::Rect around = cv::boundingRect(object.corners);
+  const cv::Point at(around.x + around.width / 2, around.y - cvRound(9 * scale));
+  draw_name(object.label, at, scale, canvas);
 }
 
 cv::Scalar state_colour(const std::string& state) {
@@ -95,7 +118,10 @@ cv::Mat draw_overlay(const cv::Mat& picture, const FrameOverlay& overlay) {
   for (const auto& mask : overlay.masks) draw_mask(mask, scale, inside);
   for (const auto& outline : overlay.outlines) draw_outline(outline, scale, inside);
   draw_features(overlay.features, scale, inside);
+  for (const Box2& box : overlay.boxes) draw_box(box, inside);
+  for (const auto& object : overlay.objects) draw_outline(object, 1.4 * scale, inside);
   for (const auto& mask : overlay.masks) draw_label(mask, scale, inside);
+  for (const auto& object : overlay.objects) draw_object_name(object, scale, inside);
   const int middle = picture.rows + (size.height - picture.rows) / 2;
   const cv::Scalar colour = state_colour(overlay.state);
   cv::circle(canvas, {cvRound(16 * scale), middle}, cvRound(6 * scale), colour, cv::FILLED,

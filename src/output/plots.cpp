@@ -10,6 +10,7 @@
 #include "cairn/geometry/error.h"
 #include "cairn/output/atomic_file.h"
 #include "cairn/output/chart.h"
+#include "cairn/output/ellipsoid_outline.h"
 #include "cairn/output/number_text.h"
 
 namespace cairn {
@@ -150,6 +151,19 @@ void add_planes(const PlotScene& scene, Chart& chart) {
   }
 }
 
+void add_objects(const PlotScene& scene, Chart& chart) {
+  for (const PlotScene::Object& object : scene.objects) {
+    ChartSeries edge{"", {}, cv::Scalar(object.colour.z(), object.colour.y(), object.colour.x())};
+    for (const Eigen::Vector2d& p :
+         ellipsoid_shadow(object.ellipsoid, scene.view.right, scene.view.forward)) {
+      edge.points.emplace_back(p.x(), p.y());
+    }
+    edge.filled = true;
+    edge.inscription = object.label;
+    chart.series.push_back(std::move(edge));
+  }
+}
+
 }  // namespace
 
 PlanView PlanView::z_up() {
@@ -215,6 +229,7 @@ cv::Mat draw_map_plot(const PlotScene& scene) {
   chart.title = scene.title.empty() ? "Map from above" : "Map of " + scene.title + " from above";
   add_planes(scene, chart);
   add_points(scene, chart);
+  add_objects(scene, chart);
   ChartSeries path{"keyframes", {}, colours::kAccent};
   for (const StampedPose& pose : scene.keyframes) {
     path.points.push_back(from_above(scene.view, pose.T_wc.translation()));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/geometry/ellipsoid.h"
 #include "cairn/geometry/trajectory.h"
 #include "cairn/output/map_ply.h"
 
@@ -43,6 +44,12 @@ struct PlotScene {
     Rgb colour;
   };
   std::vector<PlaneOutline> planes;
+  struct Object {
+    Ellipsoid ellipsoid;
+    std::string label;
+    Rgb colour;
+  };
+  std::vector<Object> objects;
   PlanView view;
   std::string title;       ///< the sequence
   std::string unit = "m";  ///< of lengths; "map units" where the scale is free
@@ -50,7 +57,8 @@ struct PlotScene {
 
 /// The path from above, and its height over time.
 cv::Mat draw_trajectory_plot(const PlotScene& scene);
-/// The points from above with the path of the keyframes. Far outliers are left out.
+/// The points from above with planes, objects and the path of the keyframes. Far outliers are left
+/// out.
 cv::Mat draw_map_plot(const PlotScene& scene);
 /// Distances between estimate and truth over time, with their RMSE. `timestamps` in seconds.
 cv::Mat draw_error_plot(std::span<const double> timestamps, std::span<const double> errors,

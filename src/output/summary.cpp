@@ -30,6 +30,16 @@ Json gaps_json(const std::vector<RunSummary::Gap>& gaps) {
   return list;
 }
 
+Json scale_json(const RunSummary::Scale& scale) {
+  Json parts = Json::array();
+  for (const auto& part : scale.parts) {
+    parts.push_back(
+        {{"how", part.how}, {"value", part.value}, {"sigma", part.sigma}, {"count", part.count}});
+  }
+  return {
+      {"how", scale.how}, {"value", scale.value}, {"sigma", number(scale.sigma)}, {"parts", parts}};
+}
+
 }  // namespace
 
 std::map<std::string, StageTime> stage_times(std::span<const FrameRecord> frames) {
@@ -103,14 +113,12 @@ Json to_json(const RunSummary& summary) {
             {"p75_px", summary.reprojection.p75_px},
             {"p95_px", summary.reprojection.p95_px},
             {"observations", summary.reprojection.observations}}},
-          {"scale",
-           {{"how", summary.scale.how},
-            {"value", summary.scale.value},
-            {"sigma", number(summary.scale.sigma)}}},
+          {"scale", scale_json(summary.scale)},
           {"stages", stages},
           {"duration_s", summary.duration_s},
           {"peak_memory_mib", peak_memory_mib()},
           {"refusals", summary.refusals},
+          {"object_refusals", summary.object_refusals},
           {"problems", summary.problems}};
 }
 

@@ -34,10 +34,17 @@ struct RunSummary {
     double lost = 0;                  ///< seconds: time of the first lost frame
     std::optional<double> recovered;  ///< seconds; none if never
   };
+  struct ScalePart {
+    std::string how;   ///< predicted depth, object sizes, ...
+    double value = 1;  ///< metres a map unit, by this alone
+    double sigma = 0;  ///< relative
+    int count = 0;     ///< of the pictures or objects that say so
+  };
   struct Scale {
-    std::string how = "none";     ///< none (free), predicted depth, given, ...
-    double value = 1;             ///< metres a map unit
-    std::optional<double> sigma;  ///< relative; none where nothing is known of it
+    std::string how = "none";      ///< none (free), predicted depth, given, ...
+    double value = 1;              ///< metres a map unit
+    std::optional<double> sigma;   ///< relative; none where nothing is known of it
+    std::vector<ScalePart> parts;  ///< what each source said, where there are several
   };
 
   struct Reprojection {
@@ -62,6 +69,7 @@ struct RunSummary {
   Scale scale;
   double duration_s = 0;                        ///< wall time of the run, seconds
   std::map<std::string, std::size_t> refusals;  ///< how often, by reason
+  std::map<std::string, int> object_refusals;   ///< births of objects that were refused, likewise
   std::vector<std::string> problems;            ///< the first sentences about frames not used
 };
 

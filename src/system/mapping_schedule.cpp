@@ -50,8 +50,9 @@ void MappingSchedule::settle() {
   publish();
 }
 
-void MappingSchedule::relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed) {
-  Question question{std::move(frame), seed};
+void MappingSchedule::relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed,
+                                 std::vector<SeenObject> objects) {
+  Question question{std::move(frame), seed, std::move(objects)};
   if (!threaded_) {
     run_question(question);
     return;
@@ -114,6 +115,10 @@ void MappingSchedule::run_question(const Question& question) {
       mapper_->similar_keyframes(question.frame->features, kCandidates);
   Answer answer{question.frame,
                 cairn::relocalize(*question.frame, map, candidates, tracking_, question.seed)};
+  if (!answer.found && !question.objects.empty()) {
+    answer.found =
+        relocalize_with_objects(*question.frame, map, question.objects, tracking_, question.seed);
+  }
   const std::lock_guard lock(mutex_);
   answer_ = std::move(answer);
   question_.reset();

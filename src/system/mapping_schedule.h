@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "cairn/mapping/mapper.h"
 #include "cairn/system/options.h"
@@ -32,8 +33,10 @@ class MappingSchedule {
   /// All is said of the newest keyframe. In lockstep the map is adjusted now, in realtime it is
   /// when there is time.
   void settle();
-  /// Where is this lost frame? The answer comes by `take_relocalization`.
-  void relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed);
+  /// Where is this lost frame? The answer comes by `take_relocalization`. `objects`: what it shows,
+  /// for where points do not tell; empty if nobody has looked.
+  void relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed,
+                  std::vector<SeenObject> objects = {});
   struct Answer {
     std::shared_ptr<const Frame> frame;
     std::optional<Relocalization> found;
@@ -55,6 +58,7 @@ class MappingSchedule {
   struct Question {
     std::shared_ptr<const Frame> frame;
     std::uint64_t seed;
+    std::vector<SeenObject> objects;
   };
 
   void loop();

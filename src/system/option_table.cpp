@@ -57,6 +57,15 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words;
+  std::stringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');) {
+    if (!trimmed(word).empty()) words.push_back(trimmed(word));
+  }
+  return words;
+}
+
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 void flatten(const YAML::Node& node, const std::string& prefix,
@@ -90,6 +99,9 @@ void OptionTable::add(const char* key, bool& value, const char* meaning) {
 void OptionTable::add(const char* key, std::uint64_t& value, const char* meaning) {
   rows_.push_back({key, &value, "", {}, meaning});
 }
+void OptionTable::add(const char* key, std::vector<std::string>& value, const char* meaning) {
+  rows_.push_back({key, &value, "", {}, meaning});
+}
 
 std::string OptionTable::Row::print() const {
   struct Printer {
@@ -97,6 +109,9 @@ std::string OptionTable::Row::print() const {
     std::string operator()(const double* v) const { return number(*v); }
     std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
     std::string operator()(const std::uint64_t* v) const { return number(*v); }
+    std::string operator()(const std::vector<std::string>* v) const {
+      return v->empty() ? "all" : joined(*v, ",");
+    }
     std::string operator()(const Choice& c) const { return c.names[c.get()]; }
   };
   return std::visit(Printer{}, value);
@@ -105,6 +120,7 @@ std::string OptionTable::Row::print() const {
 std::string OptionTable::Row::describe_range() const {
   if (std::holds_alternative<bool*>(value)) return "true or false";
   if (std::holds_alternative<std::uint64_t*>(value)) return "0 or more";
+  if (std::holds_alternative<std::vector<std::string>*>(value)) return "all, or names by commas";
   if (const auto* choice = std::get_if<Choice>(&value)) return joined(choice->names, " or ");
   return number(range.low) + " to " + number(range.high) + (unit.empty() ? "" : " " + unit);
 }
@@ -166,6 +182,8 @@ void OptionTable::set(const std::string& key, const std::string& text) {
   } else if (auto* const* b = std::get_if<bool*>(&row.value)) {
     if (text != "true" && text != "false") wrong_type("a truth value");
     **b = text == "true";
+  } else if (auto* const* words = std::get_if<std::vector<std::string>*>(&row.value)) {
+    **words = text == "all" ? std::vector<std::string>() : split(text);
   } else {
     const Choice& choice = std::get<Choice>(row.value);
     const auto name = std::find(choice.names.begin(), choice.names.end(), text);

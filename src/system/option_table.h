@@ -44,6 +44,8 @@ class OptionTable {
   void add(const char* key, double& value, const char* unit, Range range, const char* meaning);
   void add(const char* key, bool& value, const char* meaning);
   void add(const char* key, std::uint64_t& value, const char* meaning);
+  /// Words between commas; none of them: "all".
+  void add(const char* key, std::vector<std::string>& value, const char* meaning);
   template <typename Enum>
   void add(const char* key, Enum& value, std::vector<std::pair<std::string, Enum>> choices,
            const char* meaning);
@@ -60,7 +62,7 @@ class OptionTable {
   };
   struct Row {
     std::string key;
-    std::variant<int*, double*, bool*, std::uint64_t*, Choice> value;
+    std::variant<int*, double*, bool*, std::uint64_t*, std::vector<std::string>*, Choice> value;
     std::string unit;
     Range range;
     std::string meaning;

@@ -9,7 +9,7 @@ namespace cairn {
 OptionTable::OptionTable(Options& o) {
   // clang-format off
   add("pace", o.pace, {{"realtime", Pace::kRealtime}, {"lockstep", Pace::kLockstep}}, "realtime: frames at their own rate; lockstep: repeatable to the byte");
-  add("landmarks", o.landmarks, {{"ppm", Landmarks::kPpm}, {"pp", Landmarks::kPp}, {"points", Landmarks::kPoints}}, "points; pp: points and planes; ppm: and parallel and perpendicular planes");
+  add("landmarks", o.landmarks, {{"ppm", Landmarks::kPpm}, {"pp", Landmarks::kPp}, {"points", Landmarks::kPoints}, {"po", Landmarks::kPo}, {"full", Landmarks::kFull}}, "points; pp: points and planes; ppm: and parallel and perpendicular planes; po: points and objects; full: all, and what stands on what");
   add("threads", o.threads, "threads", {0, 1024}, "threads to work with; 0: all cores");
   add("seed", o.seed, "what all random choices are drawn from");
   add("scale", o.scale, "", {0, 1e9}, "true lengths over those that come out without it; 0: not known");
@@ -33,6 +33,7 @@ OptionTable::OptionTable(Options& o) {
   add("tracking.search_radius", o.tracking.search_radius, "pixels", {2, 200}, "around the place that the motion predicts");
   add("tracking.keyframe_ratio", o.tracking.keyframe_ratio, "", {0.1, 1}, "a new keyframe once fewer of the last one's points are seen");
   add("tracking.max_keyframe_gap", o.tracking.max_keyframe_gap, "seconds", {0.05, 60}, "longest time without a keyframe");
+  add("tracking.relocalize_by_objects", o.tracking.relocalize_by_objects, "find a lost camera by three or more objects of the map where points do not");
 
   add("mapping.neighbours", o.mapping.neighbours, "keyframes", {1, 100}, "that new points are triangulated with");
   add("mapping.min_parallax_deg", o.mapping.min_parallax_deg, "degrees", {0.1, 30}, "between the rays of a new point");
@@ -59,12 +60,33 @@ OptionTable::OptionTable(Options& o) {
   add("planes.few_points", planes.few_points, "points", {0, 10000}, "measured; a keyframe with fewer takes points from planes and predicted depth");
   add("planes.probation", planes.probation, "s", {0.1, 1000}, "after its last sighting within which all this must be reached");
 
+  ObjectMappingOptions& objects = o.mapping.objects;
+  add("objects.min_score", o.object_detector.min_score, "", {0, 1}, "of a detection; 0: as the detector's card says");
+  add("objects.classes", o.object_detector.classes, "of things that are mapped, by commas; empty: all");
+  add("objects.th_high", objects.association.th_high, "points", {1, 1000}, "of an object inside a box that make the two one");
+  add("objects.th_low", objects.association.th_low, "points", {0, 1000}, "of any object inside a box: fewer make it a new one");
+  add("objects.min_overlap", objects.association.min_overlap, "", {0.05, 0.95}, "IoU of a box and an object's projection where too few points tell");
+  add("objects.max_centre", objects.association.max_centre, "", {0.1, 2}, "between a box and an object's projected centre, in half diagonals");
+  add("objects.min_views", objects.birth.min_views, "keyframes", {2, 100}, "that show an object before it is born");
+  add("objects.min_span_deg", objects.birth.min_span_deg, "degrees", {0.5, 90}, "between directions from which it was seen");
+  add("objects.min_agreeing", objects.birth.min_agreeing, "", {0, 1}, "of its boxes, that its ellipsoid explains");
+  add("objects.max_sigma_place", objects.birth.max_sigma_place, "", {0.005, 1}, "of its centre, as a share of its distance");
+  add("objects.max_sigma_size", objects.birth.max_sigma_size, "", {0.01, 5}, "of the logarithm of its size");
+  add("objects.min_sightings", objects.min_sightings, "pictures", {1, 100}, "that an object of the final map must have");
+  add("objects.max_missed", objects.max_missed, "pictures", {1, 1000}, "that should have shown an object and did not, at most");
+  add("objects.probation", objects.probation, "s", {0.1, 1000}, "after its last sighting that a guess of an object is kept");
+  add("objects.max_gap", objects.max_gap, "metres", {0.005, 1}, "between an object and the plane that it stands on");
+
   PlaneFactorOptions& factors = o.mapping.adjustment.planes;
   add_factor("predicted_depth", factors.predicted_depth, "", {0.01, 100}, "what a picture says of the depth of points, times the sigma that pictures show");
   add_factor("plane_observation", factors.observation, "", {0.01, 100}, "what a picture says of a plane, times the detector's own sigma");
   add_factor("point_on_plane", factors.point_on_plane, "", {0.0005, 0.5}, "a point's distance from its plane, as a share of the viewing distance");
   add_factor("parallel", factors.parallel, "degrees", {0.05, 45}, "angle between two planes that are parallel");
   add_factor("perpendicular", factors.perpendicular, "degrees", {0.05, 45}, "angle between two planes that are perpendicular, from 90");
+  ObjectFactorOptions& of_objects = o.mapping.adjustment.objects;
+  add_factor("object_observation", of_objects.observation, "", {0.01, 100}, "a box and the projection of its object, times the sigma of the box's edges");
+  add_factor("object_size", of_objects.size, "", {0.01, 100}, "shape and size of an object, times the sigma of its class");
+  add_factor("support", of_objects.support, "metres", {0.001, 1}, "between an object and the plane that it stands on");
   // clang-format on
 }
 

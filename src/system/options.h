@@ -4,6 +4,7 @@
 
 #include "cairn/features/orb_extractor.h"
 #include "cairn/mapping/mapper.h"
+#include "cairn/perception/object_detector.h"
 #include "cairn/tracking/initializer.h"
 #include "cairn/tracking/tracker.h"
 
@@ -11,8 +12,12 @@ namespace cairn {
 
 enum class Pace { kLockstep, kRealtime };
 
-/// What the map is made of: points; and planes (pp); and Manhattan edges between planes (ppm).
-enum class Landmarks { kPoints, kPp, kPpm };
+/// What the map is made of: points; and planes (pp); and Manhattan edges between planes (ppm);
+/// points and objects (po); all of them, and what stands on what (full).
+enum class Landmarks { kPoints, kPp, kPpm, kPo, kFull };
+
+inline bool has_planes(Landmarks set) { return set != Landmarks::kPoints && set != Landmarks::kPo; }
+inline bool has_objects(Landmarks set) { return set == Landmarks::kPo || set == Landmarks::kFull; }
 
 /// Every setting of the system. Keys, units and ranges as users see them: option_table.h.
 struct Options {
@@ -25,6 +30,7 @@ struct Options {
   InitializerOptions initialization;
   TrackingOptions tracking;
   MappingOptions mapping;
+  ObjectDetectorOptions object_detector;
 };
 
 }  // namespace cairn

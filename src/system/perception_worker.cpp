@@ -31,10 +31,22 @@ void PerceptionWorker::look(std::shared_ptr<const Frame> frame, const Perception
 
 std::vector<SeenPlane> PerceptionWorker::planes_now(std::shared_ptr<const Frame> frame,
                                                     const PerceptionInput& input) {
-  const std::unique_lock busy(detector_mutex_, std::try_to_lock);
-  if (!busy) return {};
-  seen_now_ = see({std::move(frame), input}, found_);
+  if (!see_now(std::move(frame), input)) return {};
   return seen_now_->planes;
+}
+
+std::vector<SeenObject> PerceptionWorker::objects_now(std::shared_ptr<const Frame> frame,
+                                                      const PerceptionInput& input) {
+  if (!see_now(std::move(frame), input)) return {};
+  return seen_now_->objects;
+}
+
+bool PerceptionWorker::see_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input) {
+  if (seen_now_ && seen_now_->frame == frame) return true;
+  const std::unique_lock busy(detector_mutex_, std::try_to_lock);
+  if (!busy) return false;
+  seen_now_ = see({std::move(frame), input}, found_);
+  return true;
 }
 
 void PerceptionWorker::stop() {
@@ -47,11 +59,9 @@ void PerceptionWorker::stop() {
   thread_.join();
 }
 
-KeyframePerception PerceptionWorker::see(const Task& task, std::vector<DetectedPlane>& planes) {
-  DetectedFrame detected = detector_->detect(task.input);
-  KeyframePerception seen = summarize_perception(detected, task.frame, camera_, view_);
-  planes = std::move(detected.planes);
-  return seen;
+KeyframePerception PerceptionWorker::see(const Task& task, DetectedFrame& detected) {
+  detected = detector_->detect(task.input);
+  return summarize_perception(detected, task.frame, camera_, view_);
 }
 
 void PerceptionWorker::loop() {
@@ -65,8 +75,8 @@ void PerceptionWorker::loop() {
     }
     KeyframePerception seen = [&] {
       const std::lock_guard busy(detector_mutex_);
-      std::vector<DetectedPlane> planes;  // of a picture that is gone
-      return see(task, planes);
+      DetectedFrame detected;  // of a picture that is gone
+      return see(task, detected);
     }();
     deliver_(std::move(seen));
   }

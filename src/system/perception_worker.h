@@ -15,11 +15,12 @@ namespace cairn {
 
 /// Looks at the pictures of keyframes: at once, within the call (lockstep), or on a thread of its
 /// own (realtime), where a picture that comes while another still waits takes its place: no one
-/// waits, and the newest is looked at. Only who asks for `planes_now` gets them within the call.
+/// waits, and the newest is looked at. Only who asks for `planes_now` or `objects_now` gets them
+/// within the call.
 class PerceptionWorker {
  public:
   /// `deliver` is called with each result, in realtime from the worker's thread, or from the
-  /// caller's where `planes_now` has looked already.
+  /// caller's where the same frame has been looked at within a call already.
   PerceptionWorker(std::unique_ptr<PlaneDetector> detector, const Camera& camera, const View& view,
                    bool threaded, std::function<void(KeyframePerception)> deliver);
   ~PerceptionWorker();
@@ -29,8 +30,11 @@ class PerceptionWorker {
   /// `look` is asked for the same frame afterwards, this is what it delivers.
   std::vector<SeenPlane> planes_now(std::shared_ptr<const Frame> frame,
                                     const PerceptionInput& input);
-  /// What was found within the calls since it was last asked, with its masks.
-  std::vector<DetectedPlane> take_planes() { return std::exchange(found_, {}); }
+  /// Likewise its objects; one look serves both.
+  std::vector<SeenObject> objects_now(std::shared_ptr<const Frame> frame,
+                                      const PerceptionInput& input);
+  /// What was found within the last call since it was last asked, with its masks.
+  DetectedFrame take_found() { return std::exchange(found_, {}); }
   /// Waits for what is being looked at; nothing is delivered afterwards.
   void stop();
 
@@ -40,8 +44,10 @@ class PerceptionWorker {
     PerceptionInput input;
   };
   void loop();
-  // With the detector's mutex held, once threaded; the planes with their masks go to `planes`.
-  KeyframePerception see(const Task& task, std::vector<DetectedPlane>& planes);
+  // Into `seen_now_`; false while another picture is looked at.
+  bool see_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
+  // With the detector's mutex held, once threaded; what it says goes to `detected`.
+  KeyframePerception see(const Task& task, DetectedFrame& detected);
 
   std::unique_ptr<PlaneDetector> detector_;
   Camera camera_;
@@ -49,7 +55,7 @@ class PerceptionWorker {
   std::function<void(KeyframePerception)> deliver_;
   std::mutex detector_mutex_;
   std::optional<KeyframePerception> seen_now_;  // of the calling thread
-  std::vector<DetectedPlane> found_;            // of the calling thread
+  DetectedFrame found_;                         // of the calling thread
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;

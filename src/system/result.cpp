@@ -37,6 +37,29 @@ std::vector<MappedPlane> describe_planes(const Map& map) {
   return planes;
 }
 
+std::vector<MappedObject> describe_objects(const Map& map) {
+  std::vector<MappedObject> objects;
+  map.objects().for_each([&](ObjectId id, const ObjectLandmark& landmark) {
+    const Keyframe& reference = map.keyframes()[landmark.reference];
+    MappedObject object;
+    object.id = static_cast<int>(id.slot);
+    object.class_name = landmark.class_name();
+    object.score = landmark.score();
+    object.ellipsoid = map.object_in_world(id);
+    object.in_reference = landmark.ellipsoid;
+    object.reference_time = reference.timestamp();
+    const Eigen::Matrix3d R = reference.T_wc.matrix3();
+    object.covariance = R * landmark.covariance * R.transpose();
+    object.points = static_cast<int>(landmark.points.size());
+    object.sightings = static_cast<int>(landmark.sightings);
+    for (const ObjectObservation& o : landmark.observations) object.seen.push_back(o.time);
+    std::sort(object.seen.begin(), object.seen.end());
+    if (map.planes().contains(landmark.support)) object.plane = int(landmark.support.slot);
+    objects.push_back(std::move(object));
+  });
+  return objects;
+}
+
 void to_metres(SlamResult& result) {
   const double scale = result.scale.value;
   for (Trajectory* trajectory : {&result.trajectory, &result.trajectory_live, &result.keyframes}) {
@@ -48,6 +71,12 @@ void to_metres(SlamResult& result) {
   for (MappedPlane& plane : result.planes) {
     plane.d *= scale;
     for (Eigen::Vector3d& corner : plane.outline) corner *= scale;
+  }
+  for (MappedObject& object : result.objects) {
+    for (Ellipsoid* e : {&object.ellipsoid, &object.in_reference}) {
+      *e = {SE3(e->T.rotation(), scale * e->T.translation()), scale * e->semi_axes};
+    }
+    object.covariance *= scale * scale;
   }
 }
 

@@ -10,6 +10,8 @@ namespace cairn {
 
 /// The planes of a map in its world, in order of ids, with what they are bound to.
 std::vector<MappedPlane> describe_planes(const Map& map);
+/// The objects likewise.
+std::vector<MappedObject> describe_objects(const Map& map);
 
 /// Multiplies all lengths of a result in units of the map by its scale.
 void to_metres(SlamResult& result);

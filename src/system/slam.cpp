@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <map>
@@ -22,6 +23,10 @@ constexpr double kYoungMap = 4.0;  // seconds: a map lost so early is not worth 
 // stands still sees the same for ever.
 constexpr int kSightingFrames = 30;
 constexpr int kRestartAfter = 8;  // lost frames, before a young map is given up
+// Points find most lost cameras at once. To look at a picture costs as much as several frames do:
+// of so many questions one is asked with objects, the second one first.
+constexpr int kQuestionsALook = 5;
+constexpr std::size_t kLeastObjects = 3;  // of the map, that a place can be told by
 
 // A thousand keypoints for each 640 pixels of width, where the user left the number open.
 Options resolved(Options options, const Camera& camera) {
@@ -29,7 +34,9 @@ Options resolved(Options options, const Camera& camera) {
     options.features.count =
         std::max(500, static_cast<int>(std::lround(1000.0 * camera.width() / 640)));
   }
-  options.mapping.planes.manhattan = options.landmarks == Landmarks::kPpm;
+  options.mapping.planes.manhattan =
+      options.landmarks == Landmarks::kPpm || options.landmarks == Landmarks::kFull;
+  options.mapping.objects.supports = options.landmarks == Landmarks::kFull;
   return options;
 }
 
@@ -66,6 +73,10 @@ struct Slam::Implementation {
   void lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
   bool recover(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input,
                FrameRecord& record);
+  std::vector<SeenObject> objects_in_sight(const std::shared_ptr<const Frame>& frame,
+                                           const PerceptionInput& input);
+  bool place_by_objects(const MappingSchedule::Answer& answer,
+                        const std::shared_ptr<const Frame>& frame);
   void hand_over_keyframe();
   void deliver(KeyframePerception seen);
   void restart();
@@ -88,6 +99,7 @@ struct Slam::Implementation {
   FrameLog log;
   bool lost = false;
   int lost_frames = 0;
+  int questions = 0;  // where the camera is, since it was lost
   double map_started = 0;
   int restarts = 0;
   std::vector<SlamResult::Gap> gaps;
@@ -183,7 +195,11 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   }
   record.total_ms = milliseconds_since(start) - mapping_ms;
   result.features = s.seen_features(*frame, record.state);
-  if (s.perception) result.planes = s.perception->take_planes();
+  if (s.perception) {
+    DetectedFrame found = s.perception->take_found();
+    result.planes = std::move(found.planes);
+    result.objects = std::move(found.objects);
+  }
   s.records.push_back(record);
   return result;
 }
@@ -221,7 +237,9 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
 bool Slam::Implementation::track(const std::shared_ptr<const Frame>& frame,
                                  const PerceptionInput& input, FrameRecord& record) {
   PlanesInSight planes_in_sight;
-  if (perception) planes_in_sight = [&] { return perception->planes_now(frame, input); };
+  if (perception && has_planes(options.landmarks)) {
+    planes_in_sight = [&] { return perception->planes_now(frame, input); };
+  }
   const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record, planes_in_sight);
   if (tracked == nullptr) return false;
   if (++frames_since_keyframe > kSightingFrames) return true;
@@ -244,6 +262,9 @@ void Slam::Implementation::hand_over_keyframe() {
 // In realtime mostly from the worker's thread.
 void Slam::Implementation::deliver(KeyframePerception seen) {
   const std::lock_guard lock(mapping_mutex);
+  // A detector may see more than the map is to hold.
+  if (!has_planes(options.landmarks)) seen.planes.clear();
+  if (!has_objects(options.landmarks)) seen.objects.clear();
   if (mapping) mapping->join(std::move(seen));
 }
 
@@ -254,6 +275,7 @@ void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, Frame
     gaps.push_back({frame->timestamp, std::numeric_limits<double>::quiet_NaN()});
     lost = true;
     lost_frames = 0;
+    questions = 0;
   }
   ++lost_frames;
   if (lost_frames >= kRestartAfter && gaps.back().lost - map_started < kYoungMap) restart();
@@ -263,19 +285,49 @@ void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, Frame
 bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame,
                                    const PerceptionInput& input, FrameRecord& record) {
   const auto start = std::chrono::steady_clock::now();
-  if (!mapping->relocalizing()) mapping->relocalize(frame, options.seed + records.size());
+  if (!mapping->relocalizing()) {
+    std::vector<SeenObject> objects;
+    if (questions++ % kQuestionsALook == 1) objects = objects_in_sight(frame, input);
+    mapping->relocalize(frame, options.seed + records.size(), std::move(objects));
+  }
   const std::optional<MappingSchedule::Answer> answer = mapping->take_relocalization();
   record.predict_ms = milliseconds_since(start);
   if (!answer || !answer->found) return false;
   tracker.start_from(answer->frame, answer->found->T_wc, answer->found->view,
                      answer->found->points);
   record.inliers = record.matches = answer->found->inliers;
+  if (answer->found->inliers == 0) return place_by_objects(*answer, frame);
   // In realtime the answer is for an earlier frame: the present one is tracked from there.
   if (answer->frame != frame && !track(frame, input, record)) return false;
   lost = false;
   gaps.back().recovered = frame->timestamp;
   spdlog::info("found again at {:.3f} s with {} points", frame->timestamp, record.inliers);
   return true;
+}
+
+// Of a lost frame; nothing where the map has too few that they could tell its place.
+std::vector<SeenObject> Slam::Implementation::objects_in_sight(
+    const std::shared_ptr<const Frame>& frame, const PerceptionInput& input) {
+  if (!options.tracking.relocalize_by_objects || !has_objects(options.landmarks)) return {};
+  if (!perception || mapping->view()->objects.size() < kLeastObjects) return {};
+  return perception->objects_now(frame, input);
+}
+
+// Objects alone say where a frame is: it has a pose, but there are no points from which tracking
+// could go on, so the camera stays lost and is asked for again. Has the present frame a pose?
+bool Slam::Implementation::place_by_objects(const MappingSchedule::Answer& answer,
+                                            const std::shared_ptr<const Frame>& frame) {
+  const double timestamp = answer.frame->timestamp;
+  spdlog::info("lost, but {} objects say where it is at {:.3f} s", answer.found->objects,
+               timestamp);
+  if (answer.frame == frame) return true;
+  // In realtime it is an earlier frame, passed over as lost; of this loss, not of an earlier one.
+  const auto record = std::find_if(records.rbegin(), records.rend(),
+                                   [&](const FrameRecord& r) { return r.timestamp == timestamp; });
+  if (record == records.rend() || timestamp < gaps.back().lost) return false;
+  record->state = FrameState::kTracked;
+  log.add(timestamp, tracker.last().reference, tracker.last().T_rc, tracker.last().T_wc);
+  return false;
 }
 
 void Slam::Implementation::restart() {
@@ -314,6 +366,8 @@ SlamResult Slam::finish() {
     result.points.push_back({p.position, {r, g, b}, static_cast<int>(p.observations.size())});
   });
   result.planes = describe_planes(map);
+  result.objects = describe_objects(map);
+  result.object_refusals = mapper.object_refusals();
   result.scale = mapper.scale();
   if (s.options.scale > 0) result.scale = given_scale(result.scale, s.options.scale);
   if (result.scale.known()) to_metres(result);

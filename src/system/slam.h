@@ -13,6 +13,7 @@
 #include "cairn/geometry/trajectory.h"
 #include "cairn/map/frame_record.h"
 #include "cairn/map/map_view.h"
+#include "cairn/map/mapped_object.h"
 #include "cairn/map/mapped_plane.h"
 #include "cairn/mapping/metric_scale.h"
 #include "cairn/perception/plane_detector.h"
@@ -33,6 +34,7 @@ struct FrameResult {
   /// detector's metres: in lockstep of keyframes. In realtime it mostly says so when the picture is
   /// gone; then nothing is here.
   std::vector<DetectedPlane> planes;
+  std::vector<DetectedObject> objects;  ///< likewise
 };
 
 /// Distances between keypoints and the projections of their map points, pixels of the full picture.
@@ -58,6 +60,8 @@ struct SlamResult {
   Trajectory keyframes;
   std::vector<Point> points;
   std::vector<MappedPlane> planes;
+  std::vector<MappedObject> objects;
+  std::map<std::string, int> object_refusals;  ///< how often one could not be born, by reason
   ScaleEstimate scale;
   ReprojectionError reprojection;
   std::vector<Gap> gaps;  ///< losses and recoveries

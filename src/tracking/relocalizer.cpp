@@ -1,14 +1,19 @@
 #include "cairn/tracking/relocalizer.h"
 
 #include <algorithm>
+#include <map>
 
 #include "cairn/geometry/resection.h"
+#include "cairn/tracking/object_relocalization.h"
 
 namespace cairn {
 namespace {
 
 constexpr int kMinMatches = 15;
 constexpr int kMinResectionInliers = 10;
+constexpr std::size_t kViews = 3;  // keyframes whose surroundings are searched around a pose
+// Pixels at octave 0. A pose by objects puts what is near them to within their boxes' errors.
+constexpr double kObjectRadius = 20;
 
 // One candidate keyframe, from descriptors to a pose that the local map confirms.
 class Attempt {
@@ -33,6 +38,13 @@ class Attempt {
     return count >= kMinMatches;
   }
 
+  bool match_around(const SE3& T_wc, double radius) {
+    T_wc_ = T_wc;
+    search(radius);
+    const auto none = std::count(points_.begin(), points_.end(), kNoPoint);
+    return static_cast<int>(points_.size() - none) >= kMinMatches;
+  }
+
   bool resect(std::uint64_t seed) {
     gather();
     std::vector<Eigen::Vector3d> positions;
@@ -53,6 +65,27 @@ class Attempt {
   }
 
   int search_map(double radius) {
+    search(radius);
+    return adjust();
+  }
+
+  // The inliers; 0: points do not confirm the pose so far.
+  int confirm(const TrackingOptions& options) {
+    if (search_map(10) < kMinMatches) return 0;
+    const int inliers = search_map(4);
+    return inliers >= options.min_inliers ? inliers : 0;
+  }
+
+  Relocalization result(int inliers) const {
+    Relocalization r{map_, T_wc_, {}, inliers};
+    for (const std::uint32_t p : points_) {
+      r.points.push_back(p == kNoPoint ? PointId{} : map_->points[p].id);
+    }
+    return r;
+  }
+
+ private:
+  void search(double radius) {
     const SE3 T_cw = T_wc_.inverse();
     std::vector<char> taken(map_->points.size(), 0);
     for (const std::uint32_t p : points_) {
@@ -71,18 +104,8 @@ class Attempt {
                           static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
     }
     search_by_projection(frame_, expected, {80, 0.85}, points_);
-    return adjust();
   }
 
-  Relocalization result(int inliers) const {
-    Relocalization r{map_, T_wc_, {}, inliers};
-    for (const std::uint32_t p : points_) {
-      r.points.push_back(p == kNoPoint ? PointId{} : map_->points[p].id);
-    }
-    return r;
-  }
-
- private:
   void gather() {
     observations_.clear();
     keypoints_.clear();
@@ -113,6 +136,32 @@ class Attempt {
   std::vector<char> inlier_;
 };
 
+// Those that see most of the points that a camera at this pose should see; the nearest where there
+// are none. Ids decide between equals.
+std::vector<KeyframeId> keyframes_around(const Map& map, const SE3& T_wc) {
+  const SE3 T_cw = T_wc.inverse();
+  std::map<KeyframeId, int> shared;
+  map.points().for_each([&](PointId, const MapPoint& p) {
+    const Visibility v = predict_visibility(map.view(), T_cw, T_wc.translation(), p.position,
+                                            p.normal, p.base_distance);
+    if (!v.visible) return;
+    for (const Observation& o : p.observations) ++shared[o.keyframe];
+  });
+  std::vector<std::pair<double, KeyframeId>> ranked;  // the less the better
+  for (const auto& [id, count] : shared) ranked.emplace_back(-count, id);
+  if (ranked.empty()) {
+    map.keyframes().for_each([&](KeyframeId id, const Keyframe& k) {
+      ranked.emplace_back((k.T_wc.translation() - T_wc.translation()).norm(), id);
+    });
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<KeyframeId> ids;
+  for (std::size_t i = 0; i < std::min(kViews, ranked.size()); ++i) {
+    ids.push_back(ranked[i].second);
+  }
+  return ids;
+}
+
 }  // namespace
 
 std::optional<Relocalization> relocalize(const Frame& frame, const Map& map,
@@ -122,11 +171,35 @@ std::optional<Relocalization> relocalize(const Frame& frame, const Map& map,
     if (!map.keyframes().contains(id)) continue;
     Attempt attempt(frame, map, id, options);
     if (!attempt.match_by_appearance() || !attempt.resect(seed)) continue;
-    if (attempt.search_map(10) < kMinMatches) continue;
-    const int inliers = attempt.search_map(4);
-    if (inliers >= options.min_inliers) return attempt.result(inliers);
+    if (const int inliers = attempt.confirm(options)) return attempt.result(inliers);
   }
   return std::nullopt;
+}
+
+std::optional<Relocalization> relocalize_with_objects(const Frame& frame, const Map& map,
+                                                      std::span<const SeenObject> seen,
+                                                      const TrackingOptions& options,
+                                                      std::uint64_t seed) {
+  std::vector<KnownObject> known;
+  map.objects().for_each([&](ObjectId id, const ObjectLandmark& landmark) {
+    if (landmark.born) known.push_back({map.object_in_world(id), landmark.class_name()});
+  });
+  const auto by_objects = relocalize_by_objects(seen, known, map.view());
+  if (!by_objects) return std::nullopt;
+  const SE3 T_wc = by_objects->T_cw.inverse();
+  const std::vector<KeyframeId> around = keyframes_around(map, T_wc);
+  for (const KeyframeId id : around) {
+    Attempt attempt(frame, map, id, options);
+    if (!attempt.match_around(T_wc, kObjectRadius) || !attempt.resect(seed)) continue;
+    const int inliers = attempt.confirm(options);
+    if (inliers == 0) continue;
+    Relocalization result = attempt.result(inliers);
+    result.objects = by_objects->agreeing;
+    return result;
+  }
+  if (!by_objects->certain || around.empty()) return std::nullopt;
+  return Relocalization{make_view(map, around.front(), options.max_local_points, 0), T_wc,
+                        std::vector<PointId>(frame.size()), 0, by_objects->agreeing};
 }
 
 }  // namespace cairn

@@ -24,6 +24,7 @@ struct TrackingOptions {
   double max_keyframe_gap = 1.0;  ///< seconds without a keyframe
   int few_points = 60;            ///< with fewer inliers planes help to hold the camera
   int min_supported_inliers = 6;  ///< points that must agree with a pose that planes hold
+  bool relocalize_by_objects = true;  ///< where points do not find a lost camera
 };
 
 /// What the tracker found out about one frame.

@@ -62,8 +62,18 @@ TEST_F(CommandLine, WrongOptions) {
 TEST_F(CommandLine, WhatIsNotThereYetIsRefusedByName) {
   EXPECT_THAT(run_cairn("run x --sensor stereo"), fails(2, "--sensor mono"));
   EXPECT_THAT(run_cairn("run x --sensor rgbd"), fails(2, "--sensor mono"));
-  EXPECT_THAT(run_cairn("run x --landmarks full"), fails(2, "--landmarks points"));
-  EXPECT_THAT(run_cairn("run x --objects yolo"), fails(2, "--objects none"));
+}
+
+TEST_F(CommandLine, SourcesAreOfLandmarksThatTheMapHas) {
+  EXPECT_THAT(run_cairn("run x --objects yolo"), fails(2, "give --landmarks full"));
+  EXPECT_THAT(run_cairn("run x --landmarks points --objects yolo"),
+              fails(2, "give --landmarks po"));
+  EXPECT_THAT(run_cairn("run x --landmarks po --planes rgbd"), fails(2, "give --landmarks full"));
+  EXPECT_THAT(run_cairn("run x --landmarks full --objects none"), fails(2, "give --landmarks ppm"));
+  EXPECT_THAT(run_cairn("run x --landmarks full --planes none"), fails(2, "give --landmarks po"));
+  EXPECT_THAT(run_small("--landmarks po --objects yolo"), fails(2, "\"yolo\""));
+  EXPECT_THAT(run_small("--landmarks po --models /no/such/folder"), fails(3, "/no/such/folder"));
+  EXPECT_THAT(run_small("--landmarks po --objects recorded"), fails(3, "perception.jsonl"));
 }
 
 TEST_F(CommandLine, WrongConfiguration) {

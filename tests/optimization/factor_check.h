@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "cairn/optimization/object_manifold.h"
 #include "cairn/optimization/plane_manifold.h"
 #include "cairn/optimization/se3_manifold.h"
 
@@ -27,6 +28,11 @@ struct Block {
   static Block of(const Plane& plane) {
     Block block{std::vector<double>(4), std::make_shared<PlaneManifold>()};
     PlaneManifold::pack(plane, block.values.data());
+    return block;
+  }
+  static Block of(const Ellipsoid& ellipsoid) {
+    Block block{std::vector<double>(10), std::make_shared<ObjectManifold>()};
+    ObjectManifold::pack(ellipsoid, block.values.data());
     return block;
   }
   static Block of(double value) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <deque>
 
+#include "cairn/optimization/object_manifold.h"
 #include "cairn/optimization/plane_manifold.h"
 #include "cairn/optimization/se3_manifold.h"
 
@@ -24,6 +25,11 @@ class FactorGraph {
     double* x = values_.emplace_back().data();
     PlaneManifold::pack(plane, x);
     return add(x, 4, new PlaneManifold, held);
+  }
+  double* add(const Ellipsoid& ellipsoid, bool held = false) {
+    double* x = values_.emplace_back().data();
+    ObjectManifold::pack(ellipsoid, x);
+    return add(x, 10, new ObjectManifold, held);
   }
   double* add(double value, bool held = false) {
     double* x = values_.emplace_back().data();
@@ -59,7 +65,7 @@ class FactorGraph {
     return x;
   }
 
-  std::deque<std::array<double, 7>> values_;  // do not move as it grows
+  std::deque<std::array<double, 10>> values_;  // do not move as it grows
   ceres::Problem problem_;
 };
 

@@ -179,6 +179,9 @@ TEST(Summary, HoldsWhatTheRunDid) {
   summary.frames = hundred_frames();
   summary.gaps = {{1.5, 2.0}, {3.0, std::nullopt}};
   summary.refusals = {{"too little parallax", 3}};
+  summary.object_refusals = {{"too small a span", 4}};
+  summary.objects = 3;
+  summary.scale = {"object sizes", 1.5, 0.1, {{"object sizes", 1.5, 0.1, 3}}};
   summary.keyframes = 12;
   write_summary(folder / "summary.json", summary);
   const auto json = nlohmann::json::parse(content(folder / "summary.json"));
@@ -192,7 +195,15 @@ TEST(Summary, HoldsWhatTheRunDid) {
   EXPECT_EQ(json.at("refusals").at("too little parallax"), 3);
   EXPECT_EQ(json.at("states").at("dropped"), 1);
   EXPECT_GT(json.at("peak_memory_mib"), 1);
-  EXPECT_EQ(json.at("scale").at("how"), "none");
+  EXPECT_EQ(json.at("objects"), 3);
+  EXPECT_EQ(json.at("object_refusals").at("too small a span"), 4);
+  EXPECT_EQ(json.at("scale").at("how"), "object sizes");
+  const auto& part = json.at("scale").at("parts").at(0);
+  EXPECT_EQ(part.at("how"), "object sizes");
+  EXPECT_EQ(part.at("value"), 1.5);
+  EXPECT_EQ(part.at("sigma"), 0.1);
+  EXPECT_EQ(part.at("count"), 3);
+  EXPECT_EQ(to_json(RunSummary()).at("scale").at("how"), "none");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "cairn/output/chart.h"
+#include "cairn/output/ellipsoid_outline.h"
 #include "cairn/output/label_colour.h"
 #include "cairn/output/outline_projection.h"
 #include "cairn/output/overlay.h"
@@ -186,6 +187,53 @@ TEST_F(ProjectedOutline, IsEmptyBehindTheCameraAndBesideThePicture) {
   EXPECT_TRUE(project_outline({}, SE3(), camera).empty());
 }
 
+// Points on the surface of an ellipsoid show inside of its outline, and some on it.
+TEST_F(ProjectedOutline, OfAnEllipsoidIsWhereItsSurfaceEnds) {
+  const Ellipsoid ellipsoid{SE3(so3_exp({0.5, 0.3, 0}), {0.3, -0.2, 3}), {0.5, 0.3, 0.2}};
+  const SE3 T_cw(so3_exp({0, 0.1, 0}), {0.1, 0, 0.2});
+  const auto outline = project_ellipsoid(ellipsoid, T_cw, camera);
+  ASSERT_GT(outline.size(), 12u);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  double deepest = -1e9, nearest = 1e9;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d u =
+        Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    const Eigen::Vector2f at =
+        camera.project(T_cw * (ellipsoid.T * ellipsoid.semi_axes.cwiseProduct(u))).cast<float>();
+    const double inside = cv::pointPolygonTest(outline, {at.x(), at.y()}, true);
+    deepest = std::max(deepest, inside);
+    nearest = std::min(nearest, inside);
+  }
+  EXPECT_GT(nearest, -1) << "pixels: nothing lies outside, but for the polygon's corners";
+  EXPECT_LT(nearest, 1) << "the outline is no larger than the ellipsoid";
+  EXPECT_GT(deepest, 20);
+}
+
+TEST_F(ProjectedOutline, OfAnEllipsoidAroundOrBehindTheCameraIsEmpty) {
+  EXPECT_TRUE(project_ellipsoid({SE3(), {1, 1, 1}}, SE3(), camera).empty());
+  const SE3 behind(Eigen::Quaterniond::Identity(), {0, 0, -4});
+  EXPECT_TRUE(project_ellipsoid({behind, {1, 1, 1}}, SE3(), camera).empty());
+}
+
+TEST(Overlay, DrawsBoxesThinlyAndObjectsWithTheirNames) {
+  const cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(100, 100, 100));
+  FrameOverlay overlay;
+  overlay.boxes.push_back({50, 60, 150, 160});
+  overlay.objects.push_back({"cup", {{300, 200}, {400, 200}, {400, 300}, {300, 300}}});
+  overlay.objects.push_back({"a name at the border", {{600, 2}, {639, 2}, {639, 40}}});
+  overlay.objects.push_back({"nothing", {}});
+  const cv::Mat drawn = draw_overlay(picture, overlay);
+  show("objects.png", drawn);
+  EXPECT_GT(drawn.at<cv::Vec3b>(60, 100)[0], 180) << "light, smoothed";
+  EXPECT_EQ(drawn.at<cv::Vec3b>(110, 100), cv::Vec3b(100, 100, 100));
+  const cv::Vec3b edge = drawn.at<cv::Vec3b>(250, 300);
+  EXPECT_GT(edge[0], edge[2] + 50) << "blue, as what has no colour of its own";
+  cv::Mat changed;
+  cv::absdiff(drawn(cv::Rect(330, 175, 40, 22)), cv::Scalar::all(100), changed);
+  EXPECT_GT(cv::norm(changed, cv::NORM_INF), 50) << "the name above";
+}
+
 TEST(Overlay, TintsMasksAndDrawsOutlinesInTheColoursOfTheirLabels) {
   const cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(100, 100, 100));
   FrameOverlay overlay;
@@ -208,6 +256,19 @@ TEST(Plots, ShowPlanesInTheColoursOfTheirLabels) {
   const cv::Mat plot = draw_map_plot(scene);
   show("map_with_planes.png", plot);
   EXPECT_GT(count_of(plot, bgr(label_colour("floor"))), 800);
+}
+
+TEST(Plots, ShowObjectsFromAboveWithTheirNames) {
+  PlotScene scene = room();
+  scene.points.clear();
+  scene.objects.push_back({{SE3(Eigen::Quaterniond::Identity(), {0, 0.5, 0}), {0.6, 0.2, 0.4}},
+                           "chair",
+                           label_colour("chair")});
+  const cv::Mat plot = draw_map_plot(scene);
+  show("map_with_objects.png", plot);
+  EXPECT_GT(count_of(plot, bgr(label_colour("chair"))), 150);
+  scene.objects[0].label.clear();
+  EXPECT_GT(cv::norm(plot, draw_map_plot(scene), cv::NORM_INF), 50) << "the name";
 }
 
 TEST(Overlay, MarksFeaturesAndWritesTheState) {

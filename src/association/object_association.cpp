@@ -1,0 +1,133 @@
+#include "cairn/association/object_association.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cairn/geometry/assignment.h"
+#include "cairn/geometry/ellipse_projection.h"
+#include "cairn/map/object_classes.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kTie = 0.9;  // of one point: what overlap may add where as many points agree
+
+// An object in front of the camera, as the camera sees it.
+struct Candidate {
+  ObjectId id;
+  std::string class_name;
+  Box2 box;                             // its projection, inside of the picture
+  Eigen::Vector2d centre;               // projected
+  std::vector<Eigen::Vector2d> points;  // projected
+};
+
+Box2 borders(const View& view) {
+  return {view.min_x(), view.min_y(), view.max_x() - 1, view.max_y() - 1};
+}
+
+std::vector<Candidate> candidates_of(const Map& map, const Keyframe& keyframe) {
+  std::vector<Candidate> candidates;
+  const SE3 T_cw = keyframe.T_wc.inverse();
+  const Pinhole& pinhole = map.view().pinhole();
+  map.objects().for_each([&](ObjectId id, const ObjectLandmark& landmark) {
+    const Ellipsoid in_world = map.object_in_world(id);
+    const Ellipsoid in_camera{T_cw * in_world.T, in_world.semi_axes};
+    const std::optional<Box2> box = projected_box(pinhole, in_camera);
+    if (!box) return;
+    Candidate c{id,
+                landmark.class_name(),
+                box->clipped(borders(map.view())),
+                pinhole.project(in_camera.centre()),
+                {}};
+    if (!c.box.valid()) return;
+    for (const PointId p : landmark.points) {
+      const MapPoint* point = map.points().find(p);
+      if (point == nullptr) continue;
+      const Eigen::Vector3d X = T_cw * point->position;
+      if (X.z() <= 0) continue;
+      const Eigen::Vector2d uv = pinhole.project(X);
+      if (map.view().contains(uv)) c.points.push_back(uv);
+    }
+    candidates.push_back(std::move(c));
+  });
+  return candidates;
+}
+
+int points_inside(const Candidate& candidate, const Box2& box) {
+  return static_cast<int>(std::count_if(candidate.points.begin(), candidate.points.end(),
+                                        [&](const auto& uv) { return box.contains(uv); }));
+}
+
+// The centre of a thing that the border cuts is not that of its box.
+bool centre_agrees(const Candidate& candidate, const SeenObject& seen, double most) {
+  const Eigen::Vector2d off = candidate.centre - seen.box.centre();
+  const double reach = most * std::hypot(seen.box.width(), seen.box.height()) / 2;
+  const bool beside = seen.cut[0] || seen.cut[2], above = seen.cut[1] || seen.cut[3];
+  return (beside || std::abs(off.x()) <= reach) && (above || std::abs(off.y()) <= reach);
+}
+
+// Pairs that share what `worth` says (0: not a pair), as many and as much as can be.
+template <class Worth>
+void pair_up(std::vector<ObjectDecision>& decisions, std::vector<bool>& taken,
+             const std::vector<Candidate>& candidates, const Worth& worth) {
+  std::vector<std::size_t> rows, columns;
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    if (decisions[i].kind != ObjectDecision::Kind::kKnown) rows.push_back(i);
+  }
+  for (std::size_t j = 0; j < candidates.size(); ++j) {
+    if (!taken[j]) columns.push_back(j);
+  }
+  if (rows.empty() || columns.empty()) return;
+  Eigen::MatrixXd value(rows.size(), columns.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      value(long(i), long(j)) = worth(rows[i], candidates[columns[j]]);
+    }
+  }
+  const std::vector<int> column_of =
+      assign(Eigen::MatrixXd::Constant(value.rows(), value.cols(), value.maxCoeff()) - value);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const int j = column_of[i];
+    if (j < 0 || !(value(long(i), j) > 0)) continue;
+    const std::size_t candidate = columns[std::size_t(j)];
+    taken[candidate] = true;
+    decisions[rows[i]] = {ObjectDecision::Kind::kKnown, candidates[candidate].id};
+  }
+}
+
+}  // namespace
+
+std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyframe,
+                                              std::span<const SeenObject> seen,
+                                              const ObjectAssociationOptions& options) {
+  const std::vector<Candidate> candidates = candidates_of(map, map.keyframes()[keyframe]);
+  std::vector<ObjectDecision> decisions(seen.size());
+  std::vector<bool> taken(candidates.size(), false);
+  const auto may_be = [&](const SeenObject& s, const Candidate& c) {
+    return may_be_one_class(s.class_name, c.class_name) && centre_agrees(c, s, options.max_centre);
+  };
+  pair_up(decisions, taken, candidates, [&](std::size_t i, const Candidate& c) {
+    const int shared = points_inside(c, seen[i].box);
+    if (shared < options.th_high || !may_be(seen[i], c)) return 0.0;
+    return shared + kTie * intersection_over_union(c.box, seen[i].box);
+  });
+  pair_up(decisions, taken, candidates, [&](std::size_t i, const Candidate& c) {
+    const double overlap = intersection_over_union(c.box, seen[i].box);
+    return overlap >= options.min_overlap && may_be(seen[i], c) ? overlap : 0.0;
+  });
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (decisions[i].kind == ObjectDecision::Kind::kKnown) continue;
+    // Something of its kind is there already, or may be.
+    for (const Candidate& c : candidates) {
+      if (!may_be_one_class(seen[i].class_name, c.class_name)) continue;
+      if (points_inside(c, seen[i].box) >= options.th_low ||
+          intersection_over_union(c.box, seen[i].box) >= options.min_overlap) {
+        decisions[i].kind = ObjectDecision::Kind::kUnclear;
+      }
+    }
+  }
+  return decisions;
+}
+
+}  // namespace cairn

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/geometry/box.h"
+#include "cairn/geometry/ellipsoid.h"
+#include "cairn/map/ids.h"
+
+namespace cairn {
+
+/// A thing as one picture shows it, at pixels of the ideal pinhole camera.
+struct SeenObject {
+  Box2 box;
+  /// Left, top, right, bottom: the picture's border cuts the thing off there, so that the edge of
+  /// the box is not one of the thing.
+  std::array<bool, 4> cut{};
+  double sigma = 2;  ///< of an edge, pixels
+  std::string class_name;
+  double score = 1;                      ///< 0 to 1
+  std::vector<std::uint32_t> keypoints;  ///< of the keyframe, inside the box
+  std::optional<int> thing;              ///< which it is in truth; only a simulator knows
+};
+
+/// A picture's view of an object, as the factors need it.
+struct ObjectObservation {
+  KeyframeId keyframe;
+  Box2 box;
+  std::array<bool, 4> cut{};
+  double sigma = 2;  ///< of an edge, pixels
+  double score = 1;
+  double time = 0;  ///< seconds
+  /// The keyframe that saw it is gone; the camera of its picture hangs on another one.
+  bool buried = false;
+  SE3 T_kc = {};  ///< of the picture's camera to the keyframe
+};
+
+/// A thing of the map: a bounded dual quadric, relative to the keyframe that saw it first (the
+/// paper, sections III.A and III.C).
+struct ObjectLandmark {
+  KeyframeId reference;
+  Ellipsoid ellipsoid;                               ///< in the reference's frame, map units
+  std::map<std::string, double> votes = {};          ///< for each class: sum of scores
+  std::map<int, int> things = {};                    ///< how often it was which in truth
+  std::vector<ObjectObservation> observations = {};  ///< one a picture, in order of arrival
+  std::vector<PointId> points = {};                  ///< of the map, inside of it
+  std::uint32_t sightings = 0;                       ///< pictures that showed it, ever
+  std::uint32_t last_seen = 0;                       ///< sequence number of the newest of them
+  double last_time = 0;                              ///< seconds: when that was
+  int missed = 0;  ///< pictures lately that should have shown it and did not, less those that did
+  /// It has a place and a size of its own: only then do factors hold it, and it them. Until then it
+  /// is a guess, which only says what to look for.
+  bool born = false;
+  bool confirmed = false;  ///< it belongs into the final map
+  PlaneId support = {};    ///< the plane that it stands on
+  /// What its observations are worth: pictures that follow each other err alike.
+  double independent = 1;
+  double span = 0;  ///< largest angle between two of the directions from which it was seen, radians
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, reference's frame
+
+  bool seen_by(KeyframeId keyframe) const;  ///< by its own picture
+  /// The class that has most votes; of equal ones the first by name.
+  const std::string& class_name() const;
+  double score() const;  ///< mean of the observations'
+};
+
+}  // namespace cairn

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/map/map.h"
+#include "cairn/optimization/object_fit.h"
+
+namespace cairn {
+
+struct ObjectBirthOptions {
+  int min_views = 4;
+  double min_span_deg = 6;       ///< between the directions from which it was seen
+  double min_agreeing = 0.6;     ///< share of the views that the fit explains
+  double max_sigma_place = 0.1;  ///< of the centre, as a share of its distance from the cameras
+  double max_sigma_size = 0.5;   ///< of the logarithm of its size
+};
+
+/// What single pictures say of a thing's place: in the keyframe's frame, as far away as the map's
+/// points inside of its box, else as its predicted depth, else as a thing of its class and of this
+/// size in the picture, else as what else the keyframe sees.
+Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenObject& seen);
+
+/// The fit of all boxes of an object, cameras as the map has them; starts from where it is. In the
+/// reference's frame.
+ObjectFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark);
+
+/// Why a fit is no object; empty if it is one.
+std::string refusal(const Map& map, const ObjectLandmark& landmark, const ObjectFit& fit,
+                    const ObjectBirthOptions& options);
+
+/// Takes a fit over, with its covariance.
+void accept(ObjectLandmark& landmark, const ObjectFit& fit);
+
+/// The largest angle between two directions from which an object was seen, radians.
+double viewing_span(const Map& map, const ObjectLandmark& landmark);
+
+}  // namespace cairn

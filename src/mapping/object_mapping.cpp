@@ -1,0 +1,200 @@
+#include "cairn/mapping/object_mapping.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/geometry/ellipse_projection.h"
+#include "cairn/map/object_classes.h"
+#include "cairn/mapping/independent_pictures.h"
+#include "cairn/mapping/object_support.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kOneThing = 0.25;  // IoU of two ellipsoids of one family that are one thing
+constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
+constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
+constexpr double kCovered = 0.3;        // of what is seen where a thing should be, before it
+constexpr double kMostMissed = 0.7;     // of the pictures that should show a thing of the final map
+constexpr std::size_t kMostViews = 60;  // observations of an object: more say the same again
+
+void update_evidence(Map& map, ObjectLandmark& landmark) {
+  std::vector<double> times;
+  for (const ObjectObservation& o : landmark.observations) times.push_back(o.time);
+  landmark.independent = independent_pictures(std::move(times));
+  landmark.span = viewing_span(map, landmark);
+}
+
+// Points of the keyframe that lie on things; those that moved off them go.
+void gather_points(Map& map, const Keyframe& keyframe) {
+  map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
+    const Ellipsoid in_world = map.object_in_world(id);
+    const SE3 T_ew = in_world.T.inverse();
+    const auto inside = [&](PointId p) {
+      const MapPoint* point = map.points().find(p);
+      return point != nullptr &&
+             (T_ew * point->position).cwiseQuotient(in_world.semi_axes).norm() <= kInside;
+    };
+    std::vector<PointId>& points = landmark.points;
+    std::erase_if(points, [&](PointId p) { return !inside(p); });
+    for (const PointId p : keyframe.points) {
+      if (p.valid() && inside(p)) points.push_back(p);
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+  });
+}
+
+// A guess follows its boxes; once they say enough, it is born.
+void bear(Map& map, ObjectLandmark& landmark, const ObjectBirthOptions& options,
+          std::map<std::string, int>& refusals) {
+  const ObjectFit fit = fit_to_boxes(map, landmark);
+  const std::string reason = refusal(map, landmark, fit, options);
+  if (fit.usable) accept(landmark, fit);
+  if (reason.empty()) {
+    landmark.born = true;
+    spdlog::debug("object {} is born: {}", landmark.class_name(), fit.to_string());
+  } else {
+    ++refusals[reason];
+    spdlog::debug("object {} is not born: {} ({})", landmark.class_name(), reason, fit.to_string());
+  }
+}
+
+void fuse_objects(Map& map) {
+  std::vector<ObjectId> ids;
+  map.objects().for_each([&](ObjectId id, const ObjectLandmark&) { ids.push_back(id); });
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t k = i + 1; k < ids.size(); ++k) {
+      const ObjectLandmark *a = map.objects().find(ids[i]), *b = map.objects().find(ids[k]);
+      if (a == nullptr || b == nullptr) continue;
+      if (!a->born && !b->born) continue;  // two guesses: too little is known of either
+      if (!may_be_one_class(a->class_name(), b->class_name())) continue;
+      const Ellipsoid ea = map.object_in_world(ids[i]), eb = map.object_in_world(ids[k]);
+      const bool one = intersection_over_union(ea, eb) > kOneThing ||
+                       (ea.contains(eb.centre()) && eb.contains(ea.centre()));
+      if (!one) continue;
+      const bool first = a->born != b->born ? a->born : a->sightings >= b->sightings;
+      spdlog::debug("objects: two {} are one thing", a->class_name());
+      map.merge_objects(first ? ids[k] : ids[i], first ? ids[i] : ids[k]);
+      ObjectLandmark& whole = map.objects()[first ? ids[i] : ids[k]];
+      update_evidence(map, whole);
+      if (const ObjectFit fit = fit_to_boxes(map, whole); fit.usable) accept(whole, fit);
+    }
+  }
+}
+
+// Is it wholly in the picture, about as far away as it was seen from, and nothing before it?
+bool should_be_seen(const Map& map, const Keyframe& keyframe, ObjectId id) {
+  const ObjectLandmark& landmark = map.objects()[id];
+  const Ellipsoid in_world = map.object_in_world(id);
+  const SE3 T_cw = keyframe.T_wc.inverse();
+  const auto box = projected_box(map.view().pinhole(), {T_cw * in_world.T, in_world.semi_axes});
+  if (!box || !map.view().contains({box->x0, box->y0}) ||
+      !map.view().contains({box->x1, box->y1})) {
+    return false;
+  }
+  const double distance = (T_cw * in_world.centre()).norm();
+  double nearest = 1e300, farthest = 0;
+  for (const ObjectObservation& o : landmark.observations) {
+    const double d = (map.camera_of(o).translation() - in_world.centre()).norm();
+    nearest = std::min(nearest, d);
+    farthest = std::max(farthest, d);
+  }
+  if (distance < kNearer * nearest || distance > kFarther * farthest) return false;
+  int seen = 0, before = 0;
+  const double front = distance - in_world.semi_axes.maxCoeff();
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+    const MapPoint* point = map.points().find(keyframe.points[i]);
+    if (point == nullptr || !box->contains(keyframe.frame->pixel(i))) continue;
+    ++seen;
+    before += (T_cw * point->position).norm() < front;
+  }
+  return before <= kCovered * seen;
+}
+
+void let_die(Map& map, KeyframeId id, const ObjectMappingOptions& options) {
+  const Keyframe& keyframe = map.keyframes()[id];
+  map.objects().for_each([&](ObjectId object, ObjectLandmark& landmark) {
+    if (landmark.observations.empty()) return map.erase_object(object);
+    if (!landmark.born) {
+      if (keyframe.timestamp() - landmark.last_time > options.probation) map.erase_object(object);
+      return;
+    }
+    if (landmark.last_seen == keyframe.sequence || !should_be_seen(map, keyframe, object)) return;
+    if (++landmark.missed <= std::max(options.max_missed, int(landmark.sightings))) return;
+    spdlog::debug("object {} dies: {} pictures should have shown it", landmark.class_name(),
+                  landmark.missed);
+    map.erase_object(object);
+  });
+}
+
+// How many of the boxes that objects are made of are of the thing that most of them are of, where a
+// simulator says which is which.
+void log_identities(const Map& map) {
+  int agreeing = 0, all = 0;
+  map.objects().for_each([&](ObjectId, const ObjectLandmark& landmark) {
+    int most = 0;
+    for (const auto& [thing, times] : landmark.things) {
+      most = std::max(most, times);
+      all += times;
+    }
+    agreeing += most;
+  });
+  if (all > 0) spdlog::info("objects: {} of {} boxes are of one thing", agreeing, all);
+}
+
+}  // namespace
+
+void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
+                 const ObjectMappingOptions& options, std::map<std::string, int>& refusals) {
+  const Keyframe& keyframe = map.keyframes()[id];
+  gather_points(map, keyframe);
+  const std::vector<ObjectDecision> decisions =
+      associate_objects(map, id, seen.objects, options.association);
+  for (std::size_t i = 0; i < seen.objects.size(); ++i) {
+    const SeenObject& thing = seen.objects[i];
+    if (decisions[i].kind == ObjectDecision::Kind::kUnclear) continue;
+    if (decisions[i].kind == ObjectDecision::Kind::kNew) {
+      const bool whole = std::none_of(thing.cut.begin(), thing.cut.end(), [](bool c) { return c; });
+      if (whole) map.add_object(id, thing, guess_ellipsoid(map, keyframe, thing));
+      continue;
+    }
+    ObjectLandmark& landmark = map.objects()[decisions[i].object];
+    map.observe_object(decisions[i].object, id, thing);
+    if (landmark.observations.size() > kMostViews) {  // every other one of the older half
+      landmark.observations.erase(landmark.observations.begin() + 1 +
+                                  (landmark.sightings * 2) % (kMostViews / 2));
+    }
+    update_evidence(map, landmark);
+    if (!landmark.born) bear(map, landmark, options.birth, refusals);
+  }
+  fuse_objects(map);
+  let_die(map, id, options);
+  if (options.supports) find_supports(map, options.max_gap);
+}
+
+void settle_objects(Map& map, const ObjectMappingOptions& options) {
+  map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
+    if (landmark.observations.empty()) return map.erase_object(id);
+    update_evidence(map, landmark);
+    const ObjectFit fit = fit_to_boxes(map, landmark);
+    const std::string reason = refusal(map, landmark, fit, options.birth);
+    if (fit.usable) accept(landmark, fit);
+    const double all = landmark.sightings + landmark.missed;
+    landmark.confirmed = landmark.born && reason.empty() &&
+                         int(landmark.sightings) >= options.min_sightings &&
+                         landmark.missed <= kMostMissed * all;
+    spdlog::debug("object {}: {} pictures, {} missed, span {:.1f} deg, {}: {}",
+                  landmark.class_name(), landmark.sightings, landmark.missed,
+                  landmark.span * 180 / M_PI, fit.to_string(),
+                  landmark.confirmed ? "kept" : "refused: " + reason);
+    if (!landmark.confirmed) map.erase_object(id);
+  });
+  fuse_objects(map);
+  if (options.supports) find_supports(map, options.max_gap);
+  log_identities(map);
+}
+
+}  // namespace cairn

@@ -1,0 +1,138 @@
+#include "cairn/optimization/object_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/map/object_classes.h"
+#include "cairn/optimization/factors/object_observation_factor.h"
+#include "cairn/optimization/factors/object_size_factor.h"
+#include "cairn/optimization/factors/support_factor.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kMinObservations = 2;  // of an object, that it takes part
+constexpr double kSigmaIou = 0.1;            // paper form: where a box's edge has its own σ
+
+constexpr double kSigmaOfClass = 0.5;  // of the logarithm of a size, added to the class's
+
+}  // namespace
+
+ObjectPrior prior_of(const std::string& class_name, double units_a_metre) {
+  ObjectPrior prior;
+  prior.usual = usual_size(class_name) * units_a_metre;
+  const ObjectClass* known = find_object_class(class_name);
+  if (known != nullptr) prior.sigma_size = std::hypot(known->sigma, kSigmaOfClass);
+  return prior;
+}
+
+void ObjectBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
+                          PoseBlocks& poses, PlaneBlocks& planes) {
+  problem_ = &problem;
+  poses_ = &poses;
+  box_loss_ = std::make_unique<ceres::CauchyLoss>(kObjectLoss);
+  support_loss_ = std::make_unique<ceres::CauchyLoss>(1.0);
+  objects_.reserve(map_.objects().size());
+  map_.objects().for_each([&](ObjectId id, const ObjectLandmark& landmark) {
+    if (!takes_part(landmark)) return;
+    Entry& entry = objects_.emplace_back();
+    entry.id = id;
+    ObjectManifold::pack(landmark.ellipsoid, entry.values.data());
+    problem.AddParameterBlock(entry.values.data(), ObjectManifold::kAmbient, &manifold_);
+    ordering.AddElementToGroup(entry.values.data(), kObjectGroup);
+  });
+  for (Entry& entry : objects_) {
+    add_observations(entry);
+    if (options_.size.use) add_size(entry);
+    if (options_.support.use && map_.units_a_metre > 0) add_support(entry, planes);
+  }
+}
+
+// Without boxes nothing else says where an object is.
+bool ObjectBlocks::takes_part(const ObjectLandmark& landmark) const {
+  if (!options_.observation.use || !landmark.born) return false;
+  const auto& observations = landmark.observations;
+  return observations.size() >= kMinObservations &&
+         std::any_of(observations.begin(), observations.end(), [&](const ObjectObservation& o) {
+           return poses_->own(o.keyframe) != nullptr;
+         });
+}
+
+void ObjectBlocks::add_observations(Entry& entry) {
+  const ObjectLandmark& landmark = map_.objects()[entry.id];
+  const FactorForm form = options_.observation.form;
+  // Pictures that follow each other err alike; what is an outlier stays one.
+  box_losses_.emplace_back(box_loss_.get(),
+                           landmark.independent / double(landmark.observations.size()),
+                           ceres::DO_NOT_TAKE_OWNERSHIP);
+  ceres::LossFunction* loss = &box_losses_.back();
+  const double s = options_.observation.sigma;
+  for (const ObjectObservation& o : landmark.observations) {
+    const ObjectMeasurement measurement{map_.view().pinhole(), o.box,   o.cut, s * o.sigma,
+                                        s * kSigmaIou,         o.score, o.T_kc};
+    if (o.keyframe == landmark.reference) {
+      add(std::make_unique<ReferenceObjectObservationFactor>(form, measurement), loss,
+          {entry.values.data()});
+    } else {
+      add(std::make_unique<ObjectObservationFactor>(form, measurement), loss,
+          {poses_->at(landmark.reference), poses_->at(o.keyframe), entry.values.data()});
+    }
+  }
+}
+
+void ObjectBlocks::add_size(Entry& entry) {
+  const std::string& name = map_.objects()[entry.id].class_name();
+  const ObjectClass* known = find_object_class(name);
+  ObjectPrior prior = prior_of(name, map_.units_a_metre);
+  prior.sigma_size *= options_.size.sigma;
+  prior.sigma_shape *= options_.size.sigma;
+  const Eigen::Vector3d shape =
+      known != nullptr ? Eigen::Vector3d(known->semi_axes) : Eigen::Vector3d::Ones();
+  add(std::make_unique<ObjectSizeFactor>(options_.size.form, prior, shape), nullptr,
+      {entry.values.data()});
+}
+
+void ObjectBlocks::add_support(Entry& entry, PlaneBlocks& planes) {
+  const ObjectLandmark& landmark = map_.objects()[entry.id];
+  double* plane = planes.block_of(landmark.support);
+  if (plane == nullptr) return;
+  const KeyframeId reference = landmark.reference;
+  const KeyframeId plane_reference = map_.planes()[landmark.support].reference;
+  const Eigen::Vector3d centre = map_.keyframes()[reference].T_wc * landmark.ellipsoid.centre();
+  const double side = map_.plane_in_world(landmark.support).signed_distance(centre) < 0 ? -1 : 1;
+  const SupportFrames frames =
+      reference == plane_reference ? SupportFrames::kOne : SupportFrames::kTwo;
+  std::vector<double*> blocks = {plane, entry.values.data()};
+  if (frames == SupportFrames::kTwo) {
+    blocks = {poses_->at(plane_reference), plane, poses_->at(reference), entry.values.data()};
+  }
+  const double sigma = options_.support.sigma * map_.units_a_metre;
+  add(std::make_unique<SupportFactor>(options_.support.form, frames, side, sigma),
+      support_loss_.get(), blocks);
+}
+
+void ObjectBlocks::add(std::unique_ptr<ceres::CostFunction> factor, ceres::LossFunction* loss,
+                       const std::vector<double*>& blocks) {
+  problem_->AddResidualBlock(factor.get(), loss, blocks);
+  factors_.push_back(std::move(factor));
+}
+
+void ObjectBlocks::scale(double factor) {
+  for (Entry& entry : objects_) {
+    Ellipsoid e = ObjectManifold::unpack(entry.values.data());
+    e.T = SE3(e.T.rotation(), factor * e.T.translation());
+    e.semi_axes *= factor;
+    ObjectManifold::pack(e, entry.values.data());
+  }
+}
+
+// What ran away stays as it was.
+void ObjectBlocks::write_back(Map& map) const {
+  for (const Entry& entry : objects_) {
+    const Ellipsoid e = ObjectManifold::unpack(entry.values.data());
+    if (!e.T.is_finite() || !e.semi_axes.allFinite() || !(e.semi_axes.minCoeff() > 0)) continue;
+    map.objects()[entry.id].ellipsoid = e;
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,178 @@
+#include "cairn/mapping/object_mapping.h"
+
+#include <gmock/gmock.h>
+
+#include "cairn/mapping/object_support.h"
+#include "cairn/mapping/size_scale.h"
+#include "map/things.h"
+
+namespace cairn {
+namespace {
+
+using testing::a_cup;
+using testing::around;
+using testing::keyframes_in;
+using testing::objects_of;
+using testing::Random;
+using testing::seen_thing;
+using ::testing::SizeIs;
+
+class MapObjectsOfPictures : public ::testing::Test {
+ protected:
+  void film(int pictures, double span_deg) {
+    map = testing::map_of(testing::points_on(a_cup(), 40), around(pictures, span_deg));
+    map.units_a_metre = 1;
+    keyframes = keyframes_in(map);
+  }
+  void show(KeyframeId id, const std::vector<SeenObject>& objects) {
+    KeyframePerception seen;
+    seen.frame = map.keyframes()[id].frame;
+    seen.objects = objects;
+    map_objects(map, id, seen, options, refusals);
+  }
+  SeenObject noisy(SeenObject seen, double pixels) {
+    seen.box.x0 += pixels * random.gaussian();
+    seen.box.y0 += pixels * random.gaussian();
+    seen.box.x1 += pixels * random.gaussian();
+    seen.box.y1 += pixels * random.gaussian();
+    return seen;
+  }
+  void show_cup_everywhere(const std::string& class_name = "cup") {
+    for (const KeyframeId id : keyframes) {
+      show(id, {noisy(seen_thing(map, id, a_cup(), class_name), 0.5)});
+    }
+  }
+
+  Random random{5};
+  Map map{testing::point_view()};
+  std::vector<KeyframeId> keyframes;
+  ObjectMappingOptions options;
+  std::map<std::string, int> refusals;
+};
+
+TEST_F(MapObjectsOfPictures, AThingSeenFromManySidesIsBornOnceAndWhereItIs) {
+  film(12, 50);
+  show_cup_everywhere();
+  ASSERT_THAT(objects_of(map), SizeIs(1));
+  const ObjectLandmark& cup = map.objects()[objects_of(map)[0]];
+  EXPECT_TRUE(cup.born);
+  EXPECT_GT(cup.points.size(), 10u);
+  settle_objects(map, options);
+  ASSERT_THAT(objects_of(map), SizeIs(1));
+  EXPECT_TRUE(cup.confirmed);
+  const Ellipsoid found = map.object_in_world(objects_of(map)[0]);
+  EXPECT_LT((found.centre() - a_cup().centre()).norm(), 0.01);
+  EXPECT_GT(intersection_over_union(found, a_cup()), 0.8);
+  EXPECT_LT(std::sqrt(cup.covariance.trace()), 0.05);
+}
+
+TEST_F(MapObjectsOfPictures, WithoutParallaxNothingIsBornAndTheReasonIsCounted) {
+  film(12, 2);
+  show_cup_everywhere();
+  ASSERT_THAT(objects_of(map), SizeIs(1));
+  EXPECT_FALSE(map.objects()[objects_of(map)[0]].born);
+  EXPECT_GT(refusals["too little parallax"], 0);
+  EXPECT_GT(refusals["too few views"], 0);
+  settle_objects(map, options);
+  EXPECT_THAT(objects_of(map), SizeIs(0));
+}
+
+TEST_F(MapObjectsOfPictures, BoxesThatDisagreeBearNothing) {
+  film(12, 50);
+  for (const KeyframeId id : keyframes) {
+    show(id, {noisy(seen_thing(map, id, a_cup()), 14)});
+  }
+  settle_objects(map, options);
+  EXPECT_THAT(objects_of(map), SizeIs(0));
+}
+
+TEST_F(MapObjectsOfPictures, WhatIsCutInItsFirstPictureWaitsForABetterOne) {
+  film(2, 10);
+  SeenObject seen = seen_thing(map, keyframes[0], a_cup());
+  seen.cut[0] = true;
+  show(keyframes[0], {seen});
+  EXPECT_THAT(objects_of(map), SizeIs(0));
+  show(keyframes[1], {seen_thing(map, keyframes[1], a_cup())});
+  EXPECT_THAT(objects_of(map), SizeIs(1));
+}
+
+TEST_F(MapObjectsOfPictures, AnObjectThatShouldBeSeenAndIsNotDies) {
+  film(60, 40);
+  for (int i = 0; i < 12; ++i) show(keyframes[4 * i], {seen_thing(map, keyframes[4 * i], a_cup())});
+  ASSERT_THAT(objects_of(map), SizeIs(1));
+  ASSERT_TRUE(map.objects()[objects_of(map)[0]].born);
+  for (int i = 0; i < 47 && !map.objects().empty(); ++i) show(keyframes[i + 1], {});
+  EXPECT_THAT(objects_of(map), SizeIs(0));
+}
+
+TEST_F(MapObjectsOfPictures, AGuessThatNobodyConfirmsIsForgotten) {
+  film(20, 10);
+  show(keyframes[0], {seen_thing(map, keyframes[0], a_cup())});
+  EXPECT_THAT(objects_of(map), SizeIs(1));
+  for (std::size_t i = 1; i < keyframes.size(); ++i) show(keyframes[i], {});  // a second each
+  EXPECT_THAT(objects_of(map), SizeIs(0));
+}
+
+TEST_F(MapObjectsOfPictures, TwoObjectsThatBecomeOneAreFused) {
+  film(12, 50);
+  show_cup_everywhere();
+  const ObjectId cup = objects_of(map)[0];
+  ObjectLandmark copy = map.objects()[cup];
+  copy.sightings -= 3;
+  map.objects().insert(copy);
+  show(keyframes.back(), {});
+  EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup));
+}
+
+TEST_F(MapObjectsOfPictures, AThingStandsOnTheTableUnderItAndNotOnOneFarBelow) {
+  film(12, 50);
+  show_cup_everywhere();
+  const ObjectId cup = objects_of(map)[0];
+  const auto add_table = [&](double y) {  // y is down
+    const auto corners = testing::rectangle({-0.5, y, 0.8}, {1, 0, 0}, {0, 0, 0.8});
+    const PlaneId id = map.add_plane(
+        keyframes[0], testing::seen_from(map.keyframes()[keyframes[0]].T_wc, corners, "table"));
+    map.planes()[id].confirmed = true;
+    return id;
+  };
+  const PlaneId low = add_table(0.4);
+  find_supports(map, 0.05);
+  EXPECT_FALSE(map.objects()[cup].support.valid());
+  const PlaneId near = add_table(0.065);
+  find_supports(map, 0.05);
+  EXPECT_EQ(map.objects()[cup].support, near);
+  map.erase_plane(near);
+  EXPECT_FALSE(map.objects()[cup].support.valid());
+  map.erase_plane(low);
+}
+
+TEST_F(MapObjectsOfPictures, SizesOfThingsSayWhatAMetreIs) {
+  film(12, 50);
+  EXPECT_FALSE(scale_from_sizes(map).known());
+  map.units_a_metre = 0;
+  show_cup_everywhere();
+  settle_objects(map, options);
+  const ScaleEstimate scale = scale_from_sizes(map);
+  ASSERT_TRUE(scale.known());
+  EXPECT_EQ(scale.how, "object sizes");
+  EXPECT_NEAR(std::log(scale.value), 0, 2 * scale.sigma) << "a cup of about usual size, in metres";
+}
+
+TEST(ScaleOfTwoSources, IsTheSurerMeanWhereTheyAgreeAndTheSurerOneWhereNot) {
+  const ScaleEstimate depth{"predicted depth", 1.0, 0.2, 9, {}};
+  const ScaleEstimate sizes{"object sizes", 1.2, 0.1, 4, {}};
+  const ScaleEstimate both = joined(depth, sizes);
+  EXPECT_GT(both.value, 1.1);
+  EXPECT_LT(both.value, 1.2);
+  EXPECT_LT(both.sigma, 0.1);
+  EXPECT_THAT(both.parts, SizeIs(2));
+  const ScaleEstimate wrong{"object sizes", 4.0, 0.1, 4, {}};
+  EXPECT_EQ(joined(depth, wrong).value, 4.0);
+  EXPECT_EQ(joined(depth, {}).value, 1.0);
+  EXPECT_EQ(joined({}, sizes).how, "object sizes");
+  const ScaleEstimate measured{"measured depth", 1.0, 0, 9, {}};
+  EXPECT_EQ(joined(measured, sizes).value, 1.0);
+}
+
+}  // namespace
+}  // namespace cairn
