@@ -88,13 +88,13 @@ int evaluate_run(const Arguments& arguments) {
   if (!arguments.world.empty()) {
     WorldEvaluationOptions world_options = arguments.world_options;
     world_options.planes.min_visible_frames = world_options.objects.min_visible_frames;
-    world = evaluate_world(arguments.world, run, report.alignment, world_options);
+    world = evaluate_world(arguments.world, run, report.landmark_alignment, world_options);
   }
   std::optional<MeasuredPlaneReport> measured;
   if (!arguments.depth.empty()) {
-    measured = evaluate_depth(arguments.depth,
-                              aligned(read_found_planes(run / "planes.json"), report.alignment),
-                              truth, options);
+    measured = evaluate_depth(
+        arguments.depth, aligned(read_found_planes(run / "planes.json"), report.landmark_alignment),
+        truth, options);
   }
   if (arguments.json) {
     nlohmann::json json = to_json(report);

@@ -31,4 +31,11 @@ struct TrajectoryAlignment {
 TrajectoryAlignment align_trajectory(std::span<const Eigen::Vector3d> from,
                                      std::span<const Eigen::Vector3d> to, Alignment alignment);
 
+/// The alignment for what the cameras see: turned as their orientations say, with the scale of
+/// `of_positions`. A short path does not say how it is turned: 30 cm with errors of 4 mm are off by
+/// a degree, and with them all that stands two metres away. `of_positions` itself where
+/// orientations and positions disagree by more than noise can: then the two mean different cameras.
+TrajectoryAlignment align_views(const TrajectoryAlignment& of_positions, std::span<const SE3> from,
+                                std::span<const SE3> to);
+
 }  // namespace cairn

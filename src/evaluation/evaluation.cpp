@@ -103,10 +103,13 @@ EvaluationReport evaluate(const Trajectory& truth, const Trajectory& estimate,
   report.options = options;
   report.pairs = pairs.size();
   std::vector<Vector3d> from, to;
+  std::vector<SE3> seen_from, seen_to;
   for (const auto& [i, j] : pairs) {
     report.truth.push_back(truth[i]);
     to.push_back(truth[i].T_wc.translation());
     from.push_back(estimate[j].T_wc.translation());
+    seen_to.push_back(truth[i].T_wc);
+    seen_from.push_back(estimate[j].T_wc);
   }
   report.alignment = align_trajectory(from, to, options.alignment);
   report.scale = report.alignment.scale;
@@ -114,6 +117,10 @@ EvaluationReport evaluate(const Trajectory& truth, const Trajectory& estimate,
     report.scale_error = std::abs(align_trajectory(from, to, Alignment::kSim3).scale - 1);
   } catch (const Error&) {
     report.scale_error.reset();  // only possible where no alignment was asked for
+  }
+  report.landmark_alignment = report.alignment;
+  if (options.alignment != Alignment::kNone) {
+    report.landmark_alignment = align_views(report.alignment, seen_from, seen_to);
   }
   for (const auto& [i, j] : pairs) {
     report.estimate.push_back({truth[i].timestamp, report.alignment * estimate[j].T_wc});

@@ -33,9 +33,10 @@ struct EvaluationReport {
   ErrorStatistics ate;                ///< metres
   RelativeError frame, second, metre;
   TrajectoryAlignment alignment;
-  Trajectory truth;            ///< paired poses
-  Trajectory estimate;         ///< the same, aligned, at the times of the truth
-  std::vector<double> errors;  ///< their distances, metres
+  TrajectoryAlignment landmark_alignment;  ///< for objects and planes: see align_views
+  Trajectory truth;                        ///< paired poses
+  Trajectory estimate;                     ///< the same, aligned, at the times of the truth
+  std::vector<double> errors;              ///< their distances, metres
 };
 
 /// Throws Error(kInput), with the reason, if the two cannot be compared. `frame_times`: the times

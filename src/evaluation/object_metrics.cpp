@@ -70,11 +70,14 @@ double pair_cost(const TrueObject& truth, const FoundObject& found,
 ObjectMatch describe(std::size_t i, const TrueObject& truth, std::size_t j,
                      const FoundObject& found) {
   const ShapeDifference shape = compare_shapes(truth, found.ellipsoid);
+  std::optional<double> outline_iou;
+  if (truth.outlines) outline_iou = intersection_over_union(*truth.outlines, found.ellipsoid);
   return {.truth = i,
           .found = j,
           .wrong_class = truth.class_name != found.class_name,
           .centre_error = (truth.ellipsoid.centre() - found.ellipsoid.centre()).norm(),
           .iou = intersection_over_union(truth.ellipsoid, found.ellipsoid),
+          .outline_iou = outline_iou,
           .axis_error = shape.axis_error,
           .rotation = shape.rotation};
 }
@@ -88,6 +91,11 @@ void set_medians(std::span<const ObjectMatch> scored, ObjectMetrics& metrics) {
   };
   metrics.centre_error = median(&ObjectMatch::centre_error);
   metrics.iou = median(&ObjectMatch::iou);
+  std::vector<double> outline_ious;
+  for (const ObjectMatch& match : scored) {
+    if (match.outline_iou) outline_ious.push_back(*match.outline_iou);
+  }
+  if (!outline_ious.empty()) metrics.outline_iou = statistics(outline_ious).median;
   metrics.axis_error = median(&ObjectMatch::axis_error);
   metrics.rotation_deg = median(&ObjectMatch::rotation) * 180 / M_PI;
 }

@@ -26,10 +26,11 @@ struct ObjectMetricsOptions {
 struct ObjectMatch {
   std::size_t truth = 0, found = 0;  ///< indices into the two lists
   bool wrong_class = false;
-  double centre_error = 0;  ///< metres
-  double iou = 0;           ///< of the two ellipsoids
-  double axis_error = 0;    ///< mean of |s_found − s_true| / s_true over the three semi-axes
-  double rotation = 0;      ///< radians; see compare_shapes
+  double centre_error = 0;                 ///< metres
+  double iou = 0;                          ///< of the two ellipsoids
+  std::optional<double> outline_iou = {};  ///< with the ellipsoid that has the true one's outlines
+  double axis_error = 0;  ///< mean of |s_found − s_true| / s_true over the three semi-axes
+  double rotation = 0;    ///< radians; see compare_shapes
 };
 
 /// How many objects are right, and how right they are. Every found object is counted once: as
@@ -44,7 +45,7 @@ struct ObjectMetrics {
   std::size_t duplicated = 0;
   std::size_t false_objects = 0;  ///< found objects that could be no true object
   /// Medians over the found ones, as in ObjectMatch; none where nothing is found.
-  std::optional<double> centre_error, iou, axis_error, rotation_deg;
+  std::optional<double> centre_error, iou, outline_iou, axis_error, rotation_deg;
   std::vector<ObjectMatch> matches;  ///< of all true objects, in their order, the ignored ones too
 };
 

@@ -33,6 +33,7 @@ nlohmann::json objects_json(const ObjectMetrics& metrics) {
           {"ignored", metrics.ignored},
           {"centre_error", number(metrics.centre_error)},
           {"iou", number(metrics.iou)},
+          {"outline_iou", number(metrics.outline_iou)},
           {"axis_error", number(metrics.axis_error)},
           {"rotation_deg", number(metrics.rotation_deg)}};
 }
@@ -86,7 +87,8 @@ std::string to_table(const WorldReport& report) {
                   "%zu false\n",
                   m.found, m.found + m.missed, m.wrong_class, m.duplicated, m.false_objects);
     table += text + line("  centre error", m.centre_error, 4, "m   (median)") +
-             line("  3D IoU", m.iou, 3, "    (median)") +
+             line("  3D IoU", m.iou, 3, "    (median, with what encloses it)") +
+             line("    of outlines", m.outline_iou, 3, "    (median, with what has its outlines)") +
              line("  axis error", m.axis_error, 1, "%   (median)", 100) +
              line("  rotation", m.rotation_deg, 2, "deg (median, up to symmetry)");
   }

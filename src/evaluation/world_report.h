@@ -30,9 +30,9 @@ WorldReport evaluate_world(const std::filesystem::path& world, const std::filesy
                            const WorldEvaluationOptions& options = {});
 
 /// The keys of the contract: objects.{found, missed, duplicated, false, wrong_class, ignored,
-/// centre_error, iou, axis_error, rotation_deg} and planes.{precision, recall, angle_deg, offset,
-/// correct, missed, duplicated, false}; "objects" or "planes" is null where it is not given. Null
-/// as well where there is no figure.
+/// centre_error, iou, outline_iou, axis_error, rotation_deg} and planes.{precision, recall,
+/// angle_deg, offset, correct, missed, duplicated, false}; "objects" or "planes" is null where it
+/// is not given. Null as well where there is no figure.
 nlohmann::json to_json(const WorldReport& report);
 
 /// A table for people.

@@ -1,6 +1,7 @@
 #include "cairn/evaluation/world_truth.h"
 
 #include "cairn/evaluation/checked_json.h"
+#include "cairn/geometry/outline_ellipsoid.h"
 
 namespace cairn {
 namespace {
@@ -20,6 +21,9 @@ TrueObject read_object(const CheckedJson& value) {
   object.class_name = value.at("class").text();
   object.ellipsoid = {SE3(value.at("rotation").rotation(), value.at("center").vector3()),
                       value.at("semi_axes").lengths()};
+  if (value.has("surface_points")) {
+    object.outlines = outline_ellipsoid(value.at("surface_points").points());
+  }
   object.symmetry = read_symmetry(value.at("symmetry"));
   object.axis = value.at("axis").unit_vector();
   object.visible_frames = value.at("visible_frames").integer();

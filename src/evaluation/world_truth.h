@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct TrueObject {
   int id = 0;
   std::string class_name;
   Ellipsoid ellipsoid;  ///< the smallest that encloses it
+  /// The one that has its outlines, where points of its surface are known: see outline_ellipsoid.
+  std::optional<Ellipsoid> outlines = {};
   TurnSymmetry symmetry = TurnSymmetry::kNone;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, of the symmetry
   int visible_frames = 0;                           ///< in which it is well seen

@@ -27,11 +27,22 @@ struct Box2 {
 };
 
 /// Area that two boxes share, over the area that at least one covers; 0 where they do not meet.
-inline double intersection_over_union(const Box2& a, const Box2& b) {
+/// `by_a`: derivative by the edges of the first (may be null); 0 where they do not meet, one-sided
+/// where two edges coincide.
+inline double intersection_over_union(const Box2& a, const Box2& b,
+                                      Eigen::RowVector4d* by_a = nullptr) {
+  if (by_a != nullptr) by_a->setZero();
   const Box2 both = a.clipped(b);
   if (!both.valid()) return 0;
-  const double shared = both.area();
-  return shared / (a.area() + b.area() - shared);
+  const double shared = both.area(), all = a.area() + b.area() - shared;
+  if (by_a != nullptr) {
+    const double w = both.width(), h = both.height();
+    const Eigen::RowVector4d by_shared(a.x0 > b.x0 ? -h : 0, a.y0 > b.y0 ? -w : 0,
+                                       a.x1 < b.x1 ? h : 0, a.y1 < b.y1 ? w : 0);
+    const Eigen::RowVector4d by_area(-a.height(), -a.width(), a.height(), a.width());
+    *by_a = ((all + shared) * by_shared - shared * by_area) / (all * all);
+  }
+  return shared / all;
 }
 
 }  // namespace cairn

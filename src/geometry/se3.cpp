@@ -68,4 +68,11 @@ Vector6d SE3::log() const {
   return xi;
 }
 
+Eigen::Matrix<double, 6, 6> adjoint(const SE3& T) {
+  const Eigen::Matrix3d R = T.matrix3();
+  Eigen::Matrix<double, 6, 6> A;
+  A << R, skew(T.translation()) * R, Eigen::Matrix3d::Zero(), R;
+  return A;
+}
+
 }  // namespace cairn

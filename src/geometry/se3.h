@@ -47,4 +47,7 @@ class SE3 {
   Eigen::Vector3d t_;
 };
 
+/// T · exp(ξ) · T⁻¹ = exp(adjoint(T) · ξ).
+Eigen::Matrix<double, 6, 6> adjoint(const SE3& T);
+
 }  // namespace cairn

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,12 @@ double stretched_depth(double depth, const DepthRange& range, double contrast);
 /// above the mean of `range`.
 double log_stretch(double from_mean, const DepthRange& range, double contrast);
 
+/// Which way is up in the world of a map.
+struct Upward {
+  Eigen::Vector3d direction;
+  double sigma;  ///< radians
+};
+
 /// Keyframes, points, planes and objects with their observations. Owned and changed by the mapper
 /// alone.
 class Map {
@@ -74,6 +81,8 @@ class Map {
   double units_a_metre = 0;
   /// By how much predicted depths are to be stretched (see stretched_depth).
   double depth_contrast = 1;
+  /// As far as planes or the way that the camera is held say it.
+  std::optional<Upward> up;
   /// What the calibration got wrong, as far as it was estimated. Nothing until the full adjustment:
   /// tracking and mapping work with the calibration as given.
   LensCorrection& lens() { return lens_; }

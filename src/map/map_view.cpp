@@ -84,8 +84,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   });
   map.objects().for_each([&](ObjectId id, const ObjectLandmark& landmark) {
     if (!landmark.born) return;
-    view->objects.push_back(
-        {id, map.object_in_world(id), landmark.class_name(), landmark.confirmed});
+    view->objects.push_back({id, map.object_in_world(id), landmark.class_name()});
   });
   std::sort(view->keyframes.begin(), view->keyframes.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });

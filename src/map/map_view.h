@@ -36,7 +36,6 @@ struct MapView {
     ObjectId id;
     Ellipsoid ellipsoid;  ///< world
     std::string class_name;
-    bool confirmed = false;
   };
 
   std::uint64_t version = 0;

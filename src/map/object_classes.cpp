@@ -116,6 +116,11 @@ bool may_be_one_class(const std::string& a, const std::string& b) {
          std::string_view(of_a->family) == std::string_view(of_b->family);
 }
 
+Eigen::Vector3d class_shape(const ObjectClass& c) {
+  const Eigen::Vector3d logs = Eigen::Vector3d(c.semi_axes).array().log();
+  return logs.array() - logs.mean();
+}
+
 double usual_size(const std::string& class_name) {
   const ObjectClass* c = find_object_class(class_name);
   if (c == nullptr) return 0;

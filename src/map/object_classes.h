@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string>
 
@@ -19,6 +20,8 @@ std::span<const ObjectClass> object_classes();
 const ObjectClass* find_object_class(const std::string& name);
 /// Are both the same, or of one family?
 bool may_be_one_class(const std::string& a, const std::string& b);
+/// Logarithms of the semi-axes around their mean: length, height, width.
+Eigen::Vector3d class_shape(const ObjectClass& c);
 /// Geometric mean of the semi-axes, metres; 0 where nothing is known of the class.
 double usual_size(const std::string& class_name);
 

@@ -55,7 +55,9 @@ struct ObjectLandmark {
   /// is a guess, which only says what to look for.
   bool born = false;
   bool confirmed = false;  ///< it belongs into the final map
-  PlaneId support = {};    ///< the plane that it stands on
+  /// Its boxes agree with the shape of its class, its second axis upright.
+  bool upright = false;
+  PlaneId support = {};  ///< the plane that it stands on
   /// What its observations are worth: pictures that follow each other err alike.
   double independent = 1;
   double span = 0;  ///< largest angle between two of the directions from which it was seen, radians

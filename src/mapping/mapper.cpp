@@ -10,6 +10,7 @@
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
 #include "cairn/mapping/size_scale.h"
+#include "cairn/mapping/upward.h"
 
 namespace cairn {
 namespace {
@@ -126,6 +127,7 @@ void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
 
 void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
   if (seen.objects.empty() && map_.objects().empty()) return;
+  map_.up = find_up(map_);
   map_objects(map_, keyframe, seen, options_.objects, object_refusals_);
   // Where no picture has said what a metre is, things do.
   if (scale_.picture_scale() > 0) return;

@@ -15,7 +15,9 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMiddle = 0.6;  // of a box, in which what is seen is mostly the thing itself
 constexpr std::size_t kFewPoints = 3;
-constexpr double kFarTooLarge = 3;  // σ of the class's size
+constexpr double kFarTooLarge = 3;   // σ of the class's size
+constexpr double kUprightOdds = 8;   // in the cost: things stand as usual rather than in any way
+constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
 
 // Depths of what the middle of a box shows.
 std::vector<double> depths_in(const Map& map, const Keyframe& keyframe, const SeenObject& seen,
@@ -62,6 +64,29 @@ double depth_of(const Map& map, const Keyframe& keyframe, const SeenObject& seen
   return depths.empty() ? 1 : median(depths);
 }
 
+// Which of the two horizontal axes is the longer one, only a try can tell.
+ObjectFit fit_upright(const Ellipsoid& start, std::span<const BoxView> views,
+                      const Pinhole& pinhole, const ObjectPrior& prior, const ObjectClass& of_class,
+                      const Upward& up) {
+  const Eigen::Vector3d axes(of_class.semi_axes);
+  Eigen::Index longest = 0;
+  const double scale = start.semi_axes.maxCoeff(&longest) / axes.maxCoeff();
+  Eigen::Vector3d x = start.T.matrix3().col(longest);
+  x -= x.dot(up.direction) * up.direction;
+  x = x.norm() > kLeastSlant ? x.normalized() : up.direction.unitOrthogonal();
+  ObjectFit best;
+  for (const Eigen::Vector3d& along : {x, Eigen::Vector3d(up.direction.cross(x))}) {
+    Eigen::Matrix3d R;
+    R << along, up.direction, along.cross(up.direction);
+    const Ellipsoid turned{SE3(R, start.centre()), scale * axes};
+    ObjectPrior expected = prior;
+    expect_upright(expected, of_class, turned.T.rotation(), up);
+    const ObjectFit fit = fit_object(turned, views, pinhole, expected);
+    if (fit.usable && (!best.usable || fit.cost < best.cost)) best = fit;
+  }
+  return best;
+}
+
 }  // namespace
 
 Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenObject& seen) {
@@ -76,7 +101,7 @@ Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenOb
   return {SE3(Eigen::Quaterniond::Identity(), centre), {a, b, c}};
 }
 
-ObjectFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
+BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
   std::vector<BoxView> views;
   const SE3 T_wr = map.keyframes()[landmark.reference].T_wc;
   // Pictures that follow each other err alike.
@@ -85,8 +110,15 @@ ObjectFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
     const SE3 T_cr = map.camera_of(o).inverse() * T_wr;
     views.push_back({T_cr, o.box, o.cut, o.sigma, worth * o.score});
   }
-  return fit_object(landmark.ellipsoid, views, map.view().pinhole(),
-                    prior_of(landmark.class_name(), map.units_a_metre));
+  const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_metre);
+  const BoxFit free{fit_object(landmark.ellipsoid, views, map.view().pinhole(), prior), false};
+  const ObjectClass* known = find_object_class(landmark.class_name());
+  if (!map.up || known == nullptr) return free;
+  const Upward up{T_wr.rotation().conjugate() * map.up->direction, map.up->sigma};
+  const BoxFit upright{
+      fit_upright(free.fit.ellipsoid, views, map.view().pinhole(), prior, *known, up), true};
+  const bool better = !free.fit.usable || upright.fit.cost < free.fit.cost + kUprightOdds;
+  return upright.fit.usable && better ? upright : free;
 }
 
 double viewing_span(const Map& map, const ObjectLandmark& landmark) {
@@ -130,7 +162,9 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   return "";
 }
 
-void accept(ObjectLandmark& landmark, const ObjectFit& fit) {
+void accept(ObjectLandmark& landmark, const BoxFit& found) {
+  const ObjectFit& fit = found.fit;
+  landmark.upright = found.upright;
   landmark.ellipsoid = fit.ellipsoid;
   const Eigen::Matrix3d R = fit.ellipsoid.T.matrix3();
   landmark.covariance = R * fit.covariance.topLeftCorner<3, 3>() * R.transpose();

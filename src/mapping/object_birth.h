@@ -11,10 +11,10 @@ namespace cairn {
 
 struct ObjectBirthOptions {
   int min_views = 4;
-  double min_span_deg = 6;       ///< between the directions from which it was seen
-  double min_agreeing = 0.6;     ///< share of the views that the fit explains
-  double max_sigma_place = 0.1;  ///< of the centre, as a share of its distance from the cameras
-  double max_sigma_size = 0.5;   ///< of the logarithm of its size
+  double min_span_deg = 4;        ///< between the directions from which it was seen
+  double min_agreeing = 0.5;      ///< share of the views that the fit explains
+  double max_sigma_place = 0.15;  ///< of the centre, as a share of its distance from the cameras
+  double max_sigma_size = 0.5;    ///< of the logarithm of its size
 };
 
 /// What single pictures say of a thing's place: in the keyframe's frame, as far away as the map's
@@ -22,16 +22,22 @@ struct ObjectBirthOptions {
 /// size in the picture, else as what else the keyframe sees.
 Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenObject& seen);
 
-/// The fit of all boxes of an object, cameras as the map has them; starts from where it is. In the
-/// reference's frame.
-ObjectFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark);
+struct BoxFit {
+  ObjectFit fit;         ///< in the reference's frame
+  bool upright = false;  ///< with the shape of its class, its height upright
+};
+
+/// The fit of all boxes of an object, cameras as the map has them; starts from where it is. Few
+/// pictures show all sides of a thing: so it is fitted as a thing of its class that stands or lies
+/// as usual, too, and is one if its boxes do not deny it.
+BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark);
 
 /// Why a fit is no object; empty if it is one.
 std::string refusal(const Map& map, const ObjectLandmark& landmark, const ObjectFit& fit,
                     const ObjectBirthOptions& options);
 
 /// Takes a fit over, with its covariance.
-void accept(ObjectLandmark& landmark, const ObjectFit& fit);
+void accept(ObjectLandmark& landmark, const BoxFit& found);
 
 /// The largest angle between two directions from which an object was seen, radians.
 double viewing_span(const Map& map, const ObjectLandmark& landmark);

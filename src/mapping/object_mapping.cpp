@@ -16,8 +16,10 @@ namespace {
 constexpr double kOneThing = 0.25;  // IoU of two ellipsoids of one family that are one thing
 constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
 constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
-constexpr double kCovered = 0.3;        // of what is seen where a thing should be, before it
-constexpr double kMostMissed = 0.7;     // of the pictures that should show a thing of the final map
+constexpr double kCovered = 0.3;      // of what is seen where a thing should be, before it
+constexpr double kMostMissed = 0.75;  // of the pictures that should show a thing of the final map
+// Detectors see some things in one picture of three, for seconds.
+constexpr int kPatience = 2;            // pictures that miss a thing, a picture that shows it
 constexpr std::size_t kMostViews = 60;  // observations of an object: more say the same again
 
 void update_evidence(Map& map, ObjectLandmark& landmark) {
@@ -25,6 +27,11 @@ void update_evidence(Map& map, ObjectLandmark& landmark) {
   for (const ObjectObservation& o : landmark.observations) times.push_back(o.time);
   landmark.independent = independent_pictures(std::move(times));
   landmark.span = viewing_span(map, landmark);
+}
+
+// A box that the border cuts on both sides says nothing of where the middle of a thing is.
+bool says_where(const SeenObject& thing) {
+  return !(thing.cut[0] && thing.cut[2]) && !(thing.cut[1] && thing.cut[3]);
 }
 
 // Points of the keyframe that lie on things; those that moved off them go.
@@ -50,9 +57,10 @@ void gather_points(Map& map, const Keyframe& keyframe) {
 // A guess follows its boxes; once they say enough, it is born.
 void bear(Map& map, ObjectLandmark& landmark, const ObjectBirthOptions& options,
           std::map<std::string, int>& refusals) {
-  const ObjectFit fit = fit_to_boxes(map, landmark);
+  const BoxFit found = fit_to_boxes(map, landmark);
+  const ObjectFit& fit = found.fit;
   const std::string reason = refusal(map, landmark, fit, options);
-  if (fit.usable) accept(landmark, fit);
+  if (fit.usable) accept(landmark, found);
   if (reason.empty()) {
     landmark.born = true;
     spdlog::debug("object {} is born: {}", landmark.class_name(), fit.to_string());
@@ -80,7 +88,7 @@ void fuse_objects(Map& map) {
       map.merge_objects(first ? ids[k] : ids[i], first ? ids[i] : ids[k]);
       ObjectLandmark& whole = map.objects()[first ? ids[i] : ids[k]];
       update_evidence(map, whole);
-      if (const ObjectFit fit = fit_to_boxes(map, whole); fit.usable) accept(whole, fit);
+      if (const BoxFit found = fit_to_boxes(map, whole); found.fit.usable) accept(whole, found);
     }
   }
 }
@@ -123,7 +131,8 @@ void let_die(Map& map, KeyframeId id, const ObjectMappingOptions& options) {
       return;
     }
     if (landmark.last_seen == keyframe.sequence || !should_be_seen(map, keyframe, object)) return;
-    if (++landmark.missed <= std::max(options.max_missed, int(landmark.sightings))) return;
+    if (++landmark.missed <= std::max(options.max_missed, kPatience * int(landmark.sightings)))
+      return;
     spdlog::debug("object {} dies: {} pictures should have shown it", landmark.class_name(),
                   landmark.missed);
     map.erase_object(object);
@@ -157,8 +166,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     const SeenObject& thing = seen.objects[i];
     if (decisions[i].kind == ObjectDecision::Kind::kUnclear) continue;
     if (decisions[i].kind == ObjectDecision::Kind::kNew) {
-      const bool whole = std::none_of(thing.cut.begin(), thing.cut.end(), [](bool c) { return c; });
-      if (whole) map.add_object(id, thing, guess_ellipsoid(map, keyframe, thing));
+      if (says_where(thing)) map.add_object(id, thing, guess_ellipsoid(map, keyframe, thing));
       continue;
     }
     ObjectLandmark& landmark = map.objects()[decisions[i].object];
@@ -179,17 +187,18 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     if (landmark.observations.empty()) return map.erase_object(id);
     update_evidence(map, landmark);
-    const ObjectFit fit = fit_to_boxes(map, landmark);
+    const BoxFit found = fit_to_boxes(map, landmark);
+    const ObjectFit& fit = found.fit;
     const std::string reason = refusal(map, landmark, fit, options.birth);
-    if (fit.usable) accept(landmark, fit);
+    if (fit.usable) accept(landmark, found);
     const double all = landmark.sightings + landmark.missed;
     landmark.confirmed = landmark.born && reason.empty() &&
                          int(landmark.sightings) >= options.min_sightings &&
                          landmark.missed <= kMostMissed * all;
-    spdlog::debug("object {}: {} pictures, {} missed, span {:.1f} deg, {}: {}",
-                  landmark.class_name(), landmark.sightings, landmark.missed,
-                  landmark.span * 180 / M_PI, fit.to_string(),
-                  landmark.confirmed ? "kept" : "refused: " + reason);
+    spdlog::debug(
+        "object {}: {} pictures, {} missed, span {:.1f} deg, {}: {}", landmark.class_name(),
+        landmark.sightings, landmark.missed, landmark.span * 180 / M_PI, fit.to_string(),
+        (found.upright ? "upright, " : "") + (landmark.confirmed ? "kept" : "refused: " + reason));
     if (!landmark.confirmed) map.erase_object(id);
   });
   fuse_objects(map);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/map/object_classes.h"
 #include "cairn/optimization/factors/object_observation_factor.h"
 #include "cairn/optimization/factors/object_size_factor.h"
+#include "cairn/optimization/factors/object_turn_factor.h"
 #include "cairn/optimization/factors/support_factor.h"
 
 namespace cairn {
@@ -15,6 +15,8 @@ constexpr std::size_t kMinObservations = 2;  // of an object, that it takes part
 constexpr double kSigmaIou = 0.1;            // paper form: where a box's edge has its own σ
 
 constexpr double kSigmaOfClass = 0.5;  // of the logarithm of a size, added to the class's
+constexpr double kSigmaShape = 0.3;    // of log semi-axes around those of the class
+constexpr double kSigmaTurn = 0.1;     // radians: from one adjustment to the next
 
 }  // namespace
 
@@ -24,6 +26,17 @@ ObjectPrior prior_of(const std::string& class_name, double units_a_metre) {
   const ObjectClass* known = find_object_class(class_name);
   if (known != nullptr) prior.sigma_size = std::hypot(known->sigma, kSigmaOfClass);
   return prior;
+}
+
+// Upside down is upright, too.
+void expect_upright(ObjectPrior& prior, const ObjectClass& of_class, const Eigen::Quaterniond& axes,
+                    const Upward& up) {
+  const Eigen::Vector3d height = axes * Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d side = height.dot(up.direction) < 0 ? -up.direction : up.direction;
+  prior.shape = class_shape(of_class);
+  prior.sigma_shape = kSigmaShape;
+  prior.turn = Eigen::Quaterniond::FromTwoVectors(height, side) * axes;
+  prior.sigma_turn = {up.sigma, HUGE_VAL, up.sigma};
 }
 
 void ObjectBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
@@ -43,7 +56,7 @@ void ObjectBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering
   });
   for (Entry& entry : objects_) {
     add_observations(entry);
-    if (options_.size.use) add_size(entry);
+    add_prior(entry);
     if (options_.support.use && map_.units_a_metre > 0) add_support(entry, planes);
   }
 }
@@ -80,15 +93,26 @@ void ObjectBlocks::add_observations(Entry& entry) {
   }
 }
 
-void ObjectBlocks::add_size(Entry& entry) {
-  const std::string& name = map_.objects()[entry.id].class_name();
-  const ObjectClass* known = find_object_class(name);
-  ObjectPrior prior = prior_of(name, map_.units_a_metre);
+// Every object is held as it is turned, loosely: see ObjectTurnFactor.
+void ObjectBlocks::add_prior(Entry& entry) {
+  const ObjectLandmark& landmark = map_.objects()[entry.id];
+  const ObjectClass* known = find_object_class(landmark.class_name());
+  const bool paper = options_.size.form == FactorForm::kPaper;
+  ObjectPrior prior = prior_of(landmark.class_name(), map_.units_a_metre);
+  prior.turn = landmark.ellipsoid.T.rotation();
+  if (landmark.upright && known != nullptr && map_.up) {
+    const SE3& T_wr = map_.keyframes()[landmark.reference].T_wc;
+    expect_upright(prior, *known, prior.turn,
+                   {T_wr.rotation().conjugate() * map_.up->direction, map_.up->sigma});
+  } else if (paper && known != nullptr) {
+    prior.shape = class_shape(*known);
+  }
+  prior.sigma_turn = prior.sigma_turn.cwiseMin(kSigmaTurn);
+  add(std::make_unique<ObjectTurnFactor>(prior), nullptr, {entry.values.data()});
+  if (!options_.size.use) return;
   prior.sigma_size *= options_.size.sigma;
   prior.sigma_shape *= options_.size.sigma;
-  const Eigen::Vector3d shape =
-      known != nullptr ? Eigen::Vector3d(known->semi_axes) : Eigen::Vector3d::Ones();
-  add(std::make_unique<ObjectSizeFactor>(options_.size.form, prior, shape), nullptr,
+  add(std::make_unique<ObjectSizeFactor>(options_.size.form, prior), nullptr,
       {entry.values.data()});
 }
 

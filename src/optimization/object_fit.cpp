@@ -20,7 +20,6 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kDifference = 1e-6;  // step of numeric derivatives: metres, radians
 constexpr double kFirstLambda = 1e-3, kLeastLambda = 1e-9, kLargestLambda = 1e12;
 constexpr double kFaster = 3, kSlower = 4;    // by which lambda falls and grows
 constexpr double kEnough = 1e-9;              // a smaller relative gain ends it
@@ -95,21 +94,17 @@ class Problem {
   }
 
   double paper_cost(const Ellipsoid& e, const BoxView& view, NormalEquations* normal) const {
-    const Eigen::Matrix<double, 1, 1> error(misfit(e, view));
-    if (normal) {
-      Eigen::Matrix<double, 1, 9> J;
-      for (int k = 0; k < 9; ++k) {
-        const Vector9d step = kDifference * Vector9d::Unit(k);
-        J[k] = (misfit(moved(e, step), view) - misfit(moved(e, -step), view)) / (2 * kDifference);
-      }
-      normal->add<1>(view.weight, J, error);
+    BoxByEllipsoid by_ellipsoid;
+    Eigen::RowVector4d by_edges = Eigen::RowVector4d::Zero();
+    const auto box = prediction(e, view, normal ? &by_ellipsoid : nullptr);
+    const double iou =
+        box ? intersection_over_union(*box, view.box, normal ? &by_edges : nullptr) : 0;
+    if (normal && box) {
+      // The box's derivative is by the logarithms of the semi-axes.
+      by_ellipsoid.rightCols<3>() *= e.semi_axes.cwiseInverse().asDiagonal();
+      normal->add<1>(view.weight, -by_edges * by_ellipsoid, Eigen::Matrix<double, 1, 1>(1 - iou));
     }
-    return view.weight * error[0] * error[0];
-  }
-
-  double misfit(const Ellipsoid& e, const BoxView& view) const {
-    const auto box = prediction(e, view);
-    return box ? 1 - intersection_over_union(*box, view.box) : 1;
+    return view.weight * (1 - iou) * (1 - iou);
   }
 
   double prior_cost(const Ellipsoid& e, NormalEquations* normal) const {
@@ -124,7 +119,14 @@ class Problem {
       normal->g.tail<3>() += error / (sigma * sigma);
     };
     const Matrix3d identity = Matrix3d::Identity();
-    add(prior_.sigma_shape, shape, identity - Matrix3d::Constant(1.0 / 3));
+    Matrix3d by_turn;
+    const Vector3d turn = turn_residual(prior_, e.T.rotation(), &by_turn);
+    sum += turn.squaredNorm();
+    if (normal) {
+      normal->H.block<3, 3>(3, 3) += by_turn.transpose() * by_turn;
+      normal->g.segment<3>(3) += by_turn.transpose() * turn;
+    }
+    add(prior_.sigma_shape, shape - prior_.shape, identity - Matrix3d::Constant(1.0 / 3));
     if (prior_.usual > 0) add(prior_.sigma_size, logs.array() - std::log(prior_.usual), identity);
     return sum;
   }
@@ -204,6 +206,18 @@ bool usable_input(const Ellipsoid& start, std::span<const BoxView> views) {
 }
 
 }  // namespace
+
+Vector3d turn_residual(const ObjectPrior& prior, const Eigen::Quaterniond& q, Matrix3d* by_step) {
+  Eigen::Quaterniond turn = prior.turn.conjugate() * q;
+  if (turn.w() < 0) turn.coeffs() *= -1;
+  const Vector3d information = prior.sigma_turn.cwiseInverse();  // 0 where σ is infinite
+  if (by_step) {
+    *by_step = skew(turn.vec());
+    by_step->diagonal().array() += turn.w();
+    *by_step = (information.asDiagonal() * *by_step).eval();
+  }
+  return 2 * information.cwiseProduct(turn.vec());
+}
 
 std::string ObjectFit::to_string() const {
   char text[160];

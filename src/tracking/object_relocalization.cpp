@@ -53,15 +53,6 @@ struct NormalEquations {
 bool whole(const SeenObject& seen) {
   return std::none_of(seen.cut.begin(), seen.cut.end(), [](bool cut) { return cut; });
 }
-
-// Of the tangent space (ρ, ω): T exp(ξ) T⁻¹ = exp(Ad ξ).
-Matrix6d adjoint(const SE3& T) {
-  const Eigen::Matrix3d R = T.matrix3();
-  Matrix6d Ad;
-  Ad << R, skew(T.translation()) * R, Eigen::Matrix3d::Zero(), R;
-  return Ad;
-}
-
 class ObjectSearch {
  public:
   ObjectSearch(std::span<const SeenObject> seen, std::span<const KnownObject> known,

@@ -82,6 +82,37 @@ TEST(AlignTrajectory, FindsAKnownTransformExactly) {
   }
 }
 
+TEST(AlignViews, TurnsAsTheCamerasDoWhereTheirPathIsShort) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.004);
+  const SE3 T(so3_exp({0.4, -1.2, 2.0}), {5, -3, 1});
+  std::vector<SE3> from, to;
+  std::vector<Vector3d> from_position, to_position;
+  for (int i = 0; i < 40; ++i) {
+    to.emplace_back(so3_exp({0.01 * i, 0.3, 0}), Vector3d(0.01 * i, 0.02 * std::sin(i), 0));
+    const Vector3d off(noise(random), noise(random), noise(random));
+    from.push_back(T * SE3(to.back().rotation(), to.back().translation() + off));
+    from_position.push_back(from.back().translation());
+    to_position.push_back(to.back().translation());
+  }
+  const auto by_path = align_trajectory(from_position, to_position, Alignment::kSE3);
+  const auto by_views = align_views(by_path, from, to);
+  const Eigen::Quaterniond truth = T.rotation().conjugate();
+  EXPECT_GT(by_path.T.rotation().angularDistance(truth), 0.01);
+  EXPECT_LT(by_views.T.rotation().angularDistance(truth), 1e-6);
+  EXPECT_LT((by_views * T.translation() - Vector3d::Zero()).norm(), 0.005);
+}
+
+TEST(AlignViews, KeepsToThePathWhereTheTruthIsOfAnotherCamera) {
+  std::vector<SE3> from, to;
+  for (int i = 0; i < 5; ++i) {
+    from.push_back(at(i, i * i, 0));
+    to.emplace_back(so3_exp({0, 1.5, 0}), Vector3d(i, i * i, 0));
+  }
+  const TrajectoryAlignment by_path;
+  EXPECT_TRUE(align_views(by_path, from, to).T.matrix() == by_path.T.matrix());
+}
+
 TEST(AlignTrajectory, IsARotationAlsoWhereAReflectionFitsBetter) {
   const std::vector<Vector3d> from = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-1, -1, -1}};
   std::vector<Vector3d> to;

@@ -26,6 +26,15 @@ std::vector<Vector3d> square(double x, double y, double height, double half = 0.
 
 nlohmann::json json_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+nlohmann::json corners(const Vector3d& centre, const Vector3d& half) {
+  nlohmann::json points = nlohmann::json::array();
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d side(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    points.push_back(json_of(centre + half.cwiseProduct(side)));
+  }
+  return points;
+}
+
 nlohmann::json world_json() {
   nlohmann::json outline = nlohmann::json::array();
   for (const Vector3d& corner : square(0, 0, 0.7)) outline.push_back(json_of(corner));
@@ -45,7 +54,7 @@ nlohmann::json world_json() {
          {"symmetry", "half_turn"},
          {"axis", {0, 0, 1}},
          {"visible_frames", 12},
-         {"surface_points", nlohmann::json::array()},
+         {"surface_points", corners({0, 0.1, 0.75}, {0.06, 0.12, 0.03})},
          {"supported_by", 0}}}},
       {"parallel", nlohmann::json::array()},
       {"perpendicular", nlohmann::json::array()}};
@@ -116,7 +125,7 @@ TEST_F(WorldFiles, AreComparedAfterTheAlignmentOfTheTrajectory) {
 
   const nlohmann::json json = to_json(report);
   for (const char* key : {"found", "missed", "duplicated", "false", "wrong_class", "centre_error",
-                          "iou", "axis_error", "rotation_deg"}) {
+                          "iou", "outline_iou", "axis_error", "rotation_deg"}) {
     EXPECT_TRUE(json.at("objects").at(key).is_number()) << key;
   }
   for (const char* key : {"precision", "recall", "angle_deg", "offset"}) {

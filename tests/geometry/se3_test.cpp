@@ -98,6 +98,16 @@ TEST(SE3, RightUpdateMovesAPointByItsJacobian) {
   }
 }
 
+TEST(SE3, AdjointTakesAStepToTheOtherSide) {
+  Random random(6);
+  for (int trial = 0; trial < 20; ++trial) {
+    const SE3 T = random.motion(3, 5);
+    const Vector6d xi = random_tangent(random, 0.5);
+    const SE3 left = SE3::exp(adjoint(T) * xi) * T, right = T * SE3::exp(xi);
+    EXPECT_LT((left.matrix() - right.matrix()).norm(), 1e-12);
+  }
+}
+
 TEST(SE3, KnowsWhenItIsNotFinite) {
   EXPECT_TRUE(SE3().is_finite());
   EXPECT_FALSE(SE3(Eigen::Quaterniond::Identity(), Vector3d(0, NAN, 0)).is_finite());

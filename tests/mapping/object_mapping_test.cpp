@@ -86,10 +86,10 @@ TEST_F(MapObjectsOfPictures, BoxesThatDisagreeBearNothing) {
   EXPECT_THAT(objects_of(map), SizeIs(0));
 }
 
-TEST_F(MapObjectsOfPictures, WhatIsCutInItsFirstPictureWaitsForABetterOne) {
+TEST_F(MapObjectsOfPictures, WhatIsCutOnBothSidesWaitsForABetterPicture) {
   film(2, 10);
   SeenObject seen = seen_thing(map, keyframes[0], a_cup());
-  seen.cut[0] = true;
+  seen.cut[0] = seen.cut[2] = true;
   show(keyframes[0], {seen});
   EXPECT_THAT(objects_of(map), SizeIs(0));
   show(keyframes[1], {seen_thing(map, keyframes[1], a_cup())});

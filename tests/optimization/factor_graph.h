@@ -2,7 +2,8 @@
 
 // A small graph for tests: blocks that live as long as it does, and a solver that takes 50 steps.
 
-#include <ceres/ceres.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <gtest/gtest.h>
 
 #include <array>

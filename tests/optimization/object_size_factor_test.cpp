@@ -19,12 +19,20 @@ using testing::FactorGraph;
 using testing::Random;
 using testing::residual;
 
-constexpr ObjectPrior kKnown{.usual = 0.2, .sigma_size = 0.5, .sigma_shape = 0.4};
-constexpr ObjectPrior kUnknown{.usual = 0, .sigma_size = 0.5, .sigma_shape = 0.4};
+const ObjectPrior kKnown{.usual = 0.2, .sigma_size = 0.5, .sigma_shape = 0.4};
+const ObjectPrior kUnknown{.usual = 0, .sigma_size = 0.5, .sigma_shape = 0.4};
 
 Vector3d random_axes(Random& random) { return (0.5 * random.gaussian3()).array().exp(); }
 
 Ellipsoid random_ellipsoid(Random& random) { return {random.motion(3, 2), random_axes(random)}; }
+
+// Expects things whose semi-axes are as these to each other.
+ObjectPrior shaped(const Vector3d& axes) {
+  ObjectPrior prior = kKnown;
+  prior.shape = axes.array().log();
+  prior.shape.array() -= prior.shape.mean();
+  return prior;
+}
 
 // Of two cuboids of unit volume whose axes are in the same order of length.
 double cuboid_iou(Vector3d a, Vector3d b) {
@@ -46,6 +54,14 @@ TEST(ObjectSizeFactor, RobustFormIsZeroForABallOfTheUsualSizeAndGrowsWithTheSpre
   EXPECT_LT((e - expected).norm(), 1e-9);
 }
 
+TEST(ObjectSizeFactor, RobustFormIsZeroForTheExpectedShapeAtTheUsualSize) {
+  const Vector3d axes(0.4, 0.1, 0.2);  // their geometric mean is 0.2
+  const ObjectSizeFactor factor(FactorForm::kRobust, shaped(axes));
+  EXPECT_LT(residual(factor, {Block::of(Ellipsoid{SE3(), axes})}).norm(), 1e-9);
+  const Vector3d other_order(0.1, 0.4, 0.2);
+  EXPECT_GT(residual(factor, {Block::of(Ellipsoid{SE3(), other_order})}).norm(), 1);
+}
+
 TEST(ObjectSizeFactor, RobustFormKnowsNoSizeWhereNoneIsUsual) {
   Random random(1);
   const ObjectSizeFactor factor(FactorForm::kRobust, kUnknown);
@@ -60,7 +76,7 @@ TEST(ObjectSizeFactor, PaperFormComparesShapesWhateverTheirSizeAndTheOrderOfThei
   Random random(2);
   for (int trial = 0; trial < 30; ++trial) {
     const Vector3d shape = random_axes(random);
-    const ObjectSizeFactor factor(FactorForm::kPaper, kKnown, shape);
+    const ObjectSizeFactor factor(FactorForm::kPaper, shaped(shape));
     ASSERT_EQ(factor.num_residuals(), 1);
     const Vector3d same = 3 * Vector3d(shape.z(), shape.x(), shape.y());
     EXPECT_NEAR(residual(factor, {Block::of(Ellipsoid{SE3(), same})})[0], 0, 1e-9);
@@ -76,7 +92,9 @@ TEST(ObjectSizeFactor, DerivativesAgreeWithCentralDifferences) {
     const std::vector<Block> block = {Block::of(random_ellipsoid(random))};
     expect_true_derivatives(ObjectSizeFactor(FactorForm::kRobust, kKnown), block);
     expect_true_derivatives(ObjectSizeFactor(FactorForm::kRobust, kUnknown), block);
-    expect_true_derivatives(ObjectSizeFactor(FactorForm::kPaper, kKnown, random_axes(random)),
+    expect_true_derivatives(ObjectSizeFactor(FactorForm::kRobust, shaped(random_axes(random))),
+                            block);
+    expect_true_derivatives(ObjectSizeFactor(FactorForm::kPaper, shaped(random_axes(random))),
                             block);
   }
 }
@@ -94,7 +112,7 @@ TEST(ObjectSizeFactor, PaperFormPullsAnObjectToTheShapeOfItsClass) {
   const Vector3d shape(2, 1, 1), start(0.35, 0.3, 0.28);
   FactorGraph graph;
   double* object = graph.add(Ellipsoid{SE3(), start});
-  graph.connect(new ObjectSizeFactor(FactorForm::kPaper, kKnown, shape), nullptr, object);
+  graph.connect(new ObjectSizeFactor(FactorForm::kPaper, shaped(shape)), nullptr, object);
   graph.solve();
   const double before = 1 - cuboid_iou(start, shape);
   EXPECT_LT(1 - cuboid_iou(ObjectManifold::unpack(object).semi_axes, shape), 0.4 * before);

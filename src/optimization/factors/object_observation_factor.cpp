@@ -8,40 +8,14 @@
 namespace cairn {
 namespace {
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr double kNotInFront = 10 * kObjectLoss;  // of an edge, σ
-
-// T · exp(ξ) · T⁻¹ = exp(adjoint(T) · ξ), for (translation, rotation).
-Matrix6d adjoint(const SE3& T) {
-  const Eigen::Matrix3d R = T.matrix3();
-  Matrix6d A;
-  A << R, skew(T.translation()) * R, Eigen::Matrix3d::Zero(), R;
-  return A;
-}
-
 int residuals_of(FactorForm form) { return form == FactorForm::kPaper ? 1 : 4; }
-
-// Of a box with another one, with its derivative by the edges of the first: zero where they do not
-// meet, one-sided where two edges coincide.
-double overlap(const Box2& a, const Box2& b, Eigen::RowVector4d* by_edges) {
-  by_edges->setZero();
-  const Box2 both = a.clipped(b);
-  if (!both.valid()) return 0;
-  const double shared = both.area(), all = a.area() + b.area() - shared;
-  const double w = both.width(), h = both.height();
-  const Eigen::RowVector4d by_shared(a.x0 > b.x0 ? -h : 0, a.y0 > b.y0 ? -w : 0,
-                                     a.x1 < b.x1 ? h : 0, a.y1 < b.y1 ? w : 0);
-  const Eigen::RowVector4d by_area(-a.height(), -a.width(), a.height(), a.width());
-  *by_edges = ((all + shared) * by_shared - shared * by_area) / (all * all);
-  return shared / all;
-}
 
 ObjectResidual paper_residual(const ObjectMeasurement& m, const std::optional<Box2>& box,
                               const BoxByEllipsoid& by_ellipsoid, ObjectResidualByStep* by_step) {
   const double information = std::sqrt(m.score) / m.sigma_iou;
   Eigen::RowVector4d by_edges = Eigen::RowVector4d::Zero();
-  const double iou = box ? overlap(*box, m.box, &by_edges) : 0;
+  const double iou = box ? intersection_over_union(*box, m.box, &by_edges) : 0;
   if (by_step != nullptr) {
     by_step->setZero(1, 9);
     if (box) *by_step = -information * by_edges * by_ellipsoid;

@@ -21,11 +21,9 @@ Matrix3d around_mean() { return Matrix3d::Identity() - Matrix3d::Constant(1.0 / 
 
 }  // namespace
 
-ObjectSizeFactor::ObjectSizeFactor(FactorForm form, const ObjectPrior& prior,
-                                   const Vector3d& class_axes)
-    : form_(form), prior_(prior) {
-  class_shape_ = around_mean() * Vector3d(class_axes.array().log());
-  std::sort(class_shape_.data(), class_shape_.data() + 3, std::greater<>());
+ObjectSizeFactor::ObjectSizeFactor(FactorForm form, const ObjectPrior& prior)
+    : form_(form), prior_(prior), sorted_shape_(prior.shape) {
+  std::sort(sorted_shape_.data(), sorted_shape_.data() + 3, std::greater<>());
   set_num_residuals(form == FactorForm::kPaper ? 1 : prior.usual > 0 ? 4 : 3);
   *mutable_parameter_block_sizes() = std::vector<std::int32_t>{ObjectManifold::kAmbient};
 }
@@ -40,8 +38,8 @@ double ObjectSizeFactor::paper_residual(const Vector3d& log_axes,
   Eigen::RowVector3d by_shape = Eigen::RowVector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     const int k = order[i];
-    log_shared += std::min(shape[k], class_shape_[i]);
-    by_shape[k] = shape[k] < class_shape_[i] ? 1 : 0;
+    log_shared += std::min(shape[k], sorted_shape_[i]);
+    by_shape[k] = shape[k] < sorted_shape_[i] ? 1 : 0;
   }
   const double shared = std::exp(log_shared), covered = 2 - shared;
   const double by_log_shared = -2 * shared / (covered * covered * prior_.sigma_shape);
@@ -60,7 +58,7 @@ bool ObjectSizeFactor::Evaluate(double const* const* parameters, double* residua
   } else {
     by_axes.topRows<3>() = around_mean() / prior_.sigma_shape;
     Eigen::Map<Vector3d> shape(residuals);
-    shape = by_axes.topRows<3>() * log_axes;
+    shape = by_axes.topRows<3>() * log_axes - prior_.shape / prior_.sigma_shape;
     if (prior_.usual > 0) {
       const double information = std::sqrt(3.0) / prior_.sigma_size;
       residuals[3] = information * (log_axes.mean() - std::log(prior_.usual));

@@ -8,16 +8,14 @@
 namespace cairn {
 
 /// What is known of a thing's shape and size before it is seen. Block: the object (see
-/// ObjectManifold). Paper: 1 − IoU of the cuboids around the object and around one of its class,
+/// ObjectManifold). Paper: 1 − IoU of the cuboids around the object and around one of that shape,
 /// both of unit volume and laid on each other longest axis to longest, over `sigma_shape`; one
-/// residual, which knows no size. Robust: the log semi-axes around their mean, over `sigma_shape`,
-/// and where a usual size is known their mean around it, over `sigma_size`; three residuals or
-/// four. Derivation: docs/factors/object_size.md.
+/// residual, which knows no size. Robust: the log semi-axes around their mean, less `shape`, over
+/// `sigma_shape`, and where a usual size is known their mean around it, over `sigma_size`; three
+/// residuals or four. Derivation: docs/factors/object_size.md.
 class ObjectSizeFactor : public ceres::CostFunction {
  public:
-  /// `class_axes`: semi-axes of the class, in any order and unit; paper form only.
-  ObjectSizeFactor(FactorForm form, const ObjectPrior& prior,
-                   const Eigen::Vector3d& class_axes = Eigen::Vector3d::Ones());
+  ObjectSizeFactor(FactorForm form, const ObjectPrior& prior);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -27,7 +25,7 @@ class ObjectSizeFactor : public ceres::CostFunction {
 
   FactorForm form_;
   ObjectPrior prior_;
-  Eigen::Vector3d class_shape_;  // log semi-axes of the class around their mean, the largest first
+  Eigen::Vector3d sorted_shape_;  // the prior's, the largest first
 };
 
 }  // namespace cairn

@@ -1,0 +1,98 @@
+#include "cairn/mapping/object_birth.h"
+
+#include <gtest/gtest.h>
+
+#include "cairn/mapping/upward.h"
+#include "map/things.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+using testing::around;
+using testing::keyframes_in;
+using testing::map_of;
+using testing::points_on;
+using testing::seen_thing;
+
+const Vector3d kUp = -Vector3d::UnitY();  // as the first camera of around() is held
+
+// A thing whose axes are given, its second one turned from upright by `tilt` about its first.
+Ellipsoid lying(const Vector3d& semi_axes, double tilt = 0) {
+  return {SE3(so3_exp(Vector3d(0, 0.4, 0)) * so3_exp(Vector3d(tilt, 0, 0)), {0, 0, 1.2}),
+          semi_axes};
+}
+
+// The thing as all cameras of an arc see it, with the guess that its first box gives.
+struct Film {
+  Film(const Ellipsoid& thing, const std::string& class_name, double span_deg)
+      : map(map_of(points_on(thing, 20), around(12, span_deg))) {
+    map.units_a_metre = 1;
+    for (const KeyframeId id : keyframes_in(map)) {
+      const SeenObject seen = seen_thing(map, id, thing, class_name);
+      if (map.objects().empty()) {
+        map.add_object(id, seen, guess_ellipsoid(map, map.keyframes()[id], seen));
+      } else {
+        map.observe_object(testing::objects_of(map)[0], id, seen);
+      }
+    }
+    map.objects()[testing::objects_of(map)[0]].independent = 4;
+  }
+  BoxFit fit() const { return fit_to_boxes(map, map.objects()[testing::objects_of(map)[0]]); }
+  // Of the fit, relative to the reference.
+  double overlap(const Ellipsoid& thing, const BoxFit& found) const {
+    const SE3& T_wr = map.keyframes()[keyframes_in(map)[0]].T_wc;
+    const Ellipsoid& e = found.fit.ellipsoid;
+    return intersection_over_union({T_wr * e.T, e.semi_axes}, thing);
+  }
+  Map map;
+};
+
+TEST(FitToBoxes, FindsAKeyboardFlatWhereUpIsKnownAndThickWhereItIsNot) {
+  const Ellipsoid keyboard = lying({0.27, 0.02, 0.09});
+  Film film(keyboard, "keyboard", 15);
+  const BoxFit thick = film.fit();
+  EXPECT_FALSE(thick.upright);
+  film.map.up = {kUp, 0.05};
+  const BoxFit flat = film.fit();
+  EXPECT_TRUE(flat.upright);
+  EXPECT_GT(film.overlap(keyboard, flat), film.overlap(keyboard, thick) + 0.1);
+}
+
+TEST(FitToBoxes, LetsABottleLieThatItsBoxesShowLying) {
+  const Ellipsoid bottle = lying({0.045, 0.16, 0.045}, M_PI / 2);
+  Film film(bottle, "bottle", 50);
+  film.map.up = {kUp, 0.05};
+  EXPECT_FALSE(film.fit().upright);
+  EXPECT_GT(film.overlap(bottle, film.fit()), 0.6);
+}
+
+TEST(FitToBoxes, TakesWhatIsOfNoKnownClassAsItIs) {
+  Film film(lying({0.1, 0.08, 0.12}), "anvil", 40);
+  film.map.up = {kUp, 0.05};
+  EXPECT_FALSE(film.fit().upright);
+  EXPECT_TRUE(film.fit().fit.usable);
+}
+
+TEST(FindUp, IsTheDirectionThatNoCameraIsRolledAbout) {
+  const auto up = find_up(map_of({}, around(12, 60)));
+  ASSERT_TRUE(up);
+  EXPECT_LT((up->direction - kUp).norm(), 0.05);
+}
+
+TEST(FindUp, IsUnknownWhereCamerasHaveNotTurned) {
+  EXPECT_FALSE(find_up(map_of({}, around(12, 3))));
+}
+
+TEST(FindUp, IsTheNormalOfATableWhereOneIsSeen) {
+  Map map = map_of({}, around(12, 3));
+  const KeyframeId first = keyframes_in(map)[0];
+  const auto corners = testing::rectangle({-0.5, 0.4, 0.8}, {1, 0, 0}, {0, 0, 0.8});
+  map.add_plane(first, testing::seen_from(map.keyframes()[first].T_wc, corners, "table"));
+  const auto up = find_up(map);
+  ASSERT_TRUE(up);
+  EXPECT_LT((up->direction - kUp).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace cairn
