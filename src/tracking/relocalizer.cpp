@@ -1,5 +1,7 @@
 #include "cairn/tracking/relocalizer.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <map>
 
@@ -11,6 +13,9 @@ namespace {
 
 constexpr int kMinMatches = 15;
 constexpr int kMinResectionInliers = 10;
+// Of the points that a pose should show. Where patterns repeat (wallpaper), a wrong pose finds many
+// points, but only a few of all.
+constexpr double kLeastSeen = 0.07;
 constexpr std::size_t kViews = 3;  // keyframes whose surroundings are searched around a pose
 // Pixels at octave 0. A pose by objects puts what is near them to within their boxes' errors.
 constexpr double kObjectRadius = 20;
@@ -73,7 +78,9 @@ class Attempt {
   int confirm(const TrackingOptions& options) {
     if (search_map(10) < kMinMatches) return 0;
     const int inliers = search_map(4);
-    return inliers >= options.min_inliers ? inliers : 0;
+    const int expected = count_visible();
+    spdlog::debug("relocalisation: {} points agree of {} that should be seen", inliers, expected);
+    return inliers >= options.min_inliers && inliers >= kLeastSeen * expected ? inliers : 0;
   }
 
   Relocalization result(int inliers) const {
@@ -104,6 +111,17 @@ class Attempt {
                           static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
     }
     search_by_projection(frame_, expected, {80, 0.85}, points_);
+  }
+
+  // Points of the map that the pose should show.
+  int count_visible() const {
+    const SE3 T_cw = T_wc_.inverse();
+    return static_cast<int>(
+        std::count_if(map_->points.begin(), map_->points.end(), [&](const MapView::Point& p) {
+          return predict_visibility(view_, T_cw, T_wc_.translation(), p.position, p.normal,
+                                    p.base_distance)
+              .visible;
+        }));
   }
 
   void gather() {

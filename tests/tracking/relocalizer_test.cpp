@@ -53,6 +53,17 @@ TEST_F(RelocalizerTest, RefusesAFrameOfAnotherWorld) {
   }
 }
 
+// As a patch of a wallpaper's pattern would agree with the same patch elsewhere.
+TEST_F(RelocalizerTest, RefusesAPoseThatShowsOnlyAFewOfThePointsInSight) {
+  PointWorld patch(51, {.count = 105, .noise = 0.3, .bit_flips = 0});  // the first of all points
+  TrackingOptions options;
+  options.min_inliers = 20;
+  const auto frame = patch.show(along(1.0), 100);
+  EXPECT_FALSE(relocalize(*frame, map, candidates, options, 1).has_value());
+  PointWorld more(51, {.count = 400, .noise = 0.3, .bit_flips = 0});
+  EXPECT_TRUE(relocalize(*more.show(along(1.0), 100), map, candidates, options, 1).has_value());
+}
+
 TEST_F(RelocalizerTest, RefusesAFrameWithoutFeatures) {
   PointWorld dark(53, {.count = 0, .clutter = 0});
   EXPECT_FALSE(relocalize(*dark.show(SE3(), 1), map, candidates, {}, 0).has_value());
