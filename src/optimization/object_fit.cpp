@@ -22,7 +22,7 @@ using Vector9d = Eigen::Matrix<double, 9, 1>;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kFirstLambda = 1e-3, kLeastLambda = 1e-9, kLargestLambda = 1e12;
 constexpr double kFaster = 3, kSlower = 4;    // by which lambda falls and grows
-constexpr double kEnough = 1e-9;              // a smaller relative gain ends it
+constexpr double kEnough = 1e-5;              // a smaller relative gain ends it
 constexpr double kLeastDamping = 1e-6;        // of the largest diagonal number
 constexpr double kLeastConditioning = 1e-13;  // of a normal matrix with a diagonal of ones
 constexpr double kSigmaRotation = 1;          // radians: turned by half a turn it is the same
