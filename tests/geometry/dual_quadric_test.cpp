@@ -112,7 +112,7 @@ TEST(CuboidIou, IsThatOfACubeTurnedInAnother) {
 TEST(CuboidIou, IsSymmetricAndTheSameWhereverTheTwoAre) {
   Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
-    Cuboid a{random.motion(M_PI, random.uniform(0, 0.5)), {}}, b = a;
+    Cuboid a{random.motion(M_PI, random.uniform(0, 0.5)), Vector3d::Zero()}, b = a;
     for (double& half : a.half) half = random.uniform(0.2, 1);
     for (double& half : b.half) half = random.uniform(0.2, 1);
     b.T = random.motion(M_PI, random.uniform(0, 0.5));
