@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/geometry/sphere_lattice.h"
+
 namespace cairn {
 namespace {
 
@@ -20,14 +22,10 @@ double shell(double r0, double r1) {
 
 // The share of the unit ball that lies in {x : |M x + c| ≤ 1}.
 double share_of_ball(const Matrix3d& M, const Vector3d& c) {
-  static const double kGoldenAngle = M_PI * (3 - std::sqrt(5.0));
   const double constant = c.squaredNorm() - 1;
   double sum = 0;
   for (int i = 0; i < kRays; ++i) {
-    const double z = 1 - (2 * i + 1.0) / kRays, radius = std::sqrt(1 - z * z);
-    const Vector3d direction(radius * std::cos(kGoldenAngle * i),
-                             radius * std::sin(kGoldenAngle * i), z);
-    const Vector3d v = M * direction;  // |r v + c|² = 1
+    const Vector3d v = M * sphere_lattice(i, kRays);  // |r v + c|² = 1
     const double half = v.dot(c), square = v.squaredNorm();
     const double discriminant = half * half - square * constant;
     if (discriminant <= 0) continue;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "cairn/geometry/sphere_lattice.h"
+
 namespace cairn {
 namespace {
 
@@ -17,17 +19,19 @@ constexpr double kDamping = 1e-6;    // of the mean diagonal number
 constexpr double kFlattest = 1e-4;   // least axis of the points' spread over the largest
 constexpr double kLeastGrip = 1e-9;  // |A n|, of what has no extent along n
 
-// A Fibonacci lattice.
-Vector3d direction(int i) {
-  const double z = 1 - (2 * i + 1.0) / kDirections, turn = i * M_PI * (3 - std::sqrt(5.0));
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(turn), r * std::sin(turn), z};
-}
-
-double reach(const std::vector<Vector3d>& points, const Vector3d& n) {
+// How far the points reach in a direction.
+struct Reach {
+  Vector3d n;
   double most = -std::numeric_limits<double>::infinity();
-  for (const Vector3d& x : points) most = std::max(most, n.dot(x));
-  return most;
+};
+
+std::vector<Reach> reaches(const std::vector<Vector3d>& points) {
+  std::vector<Reach> result;
+  for (int i = 0; i < kDirections; ++i) {
+    Reach& reach = result.emplace_back(Reach{sphere_lattice(i, kDirections)});
+    for (const Vector3d& x : points) reach.most = std::max(reach.most, reach.n.dot(x));
+  }
+  return result;
 }
 
 // Derivative of |A n| by the six numbers of a symmetric A: 11, 22, 33, 12, 13, 23.
@@ -61,16 +65,17 @@ std::optional<Ellipsoid> outline_ellipsoid(const std::vector<Vector3d>& points) 
   const Matrix3d A0 = std::sqrt(3.0) * start.operatorSqrt();
   Vector9d x;
   x << A0.diagonal(), A0(0, 1), A0(0, 2), A0(1, 2), mean;
+  const std::vector<Reach> all = reaches(points);
   for (int step = 0; step < kSteps; ++step) {
     Eigen::Matrix<double, 9, 9> H = Eigen::Matrix<double, 9, 9>::Zero();
     Vector9d g = Vector9d::Zero();
-    for (int i = 0; i < kDirections; ++i) {
-      const Vector3d n = direction(i), An = symmetric(x.head<6>()) * n;
+    for (const auto& [n, most] : all) {
+      const Vector3d An = symmetric(x.head<6>()) * n;
       const double grip = std::max(An.norm(), kLeastGrip);
       Vector9d J;
       J << by_symmetric(An / grip, n), n;
       H += J * J.transpose();
-      g += (grip + n.dot(x.tail<3>()) - reach(points, n)) * J;
+      g += (grip + n.dot(x.tail<3>()) - most) * J;
     }
     H.diagonal().array() += kDamping * H.diagonal().mean();
     x -= H.ldlt().solve(g);

@@ -92,6 +92,11 @@ class Attempt {
   }
 
  private:
+  Visibility see(const SE3& T_cw, const MapView::Point& p) const {
+    return predict_visibility(view_, T_cw, T_wc_.translation(), p.position, p.normal,
+                              p.base_distance);
+  }
+
   void search(double radius) {
     const SE3 T_cw = T_wc_.inverse();
     std::vector<char> taken(map_->points.size(), 0);
@@ -102,8 +107,7 @@ class Attempt {
     for (std::uint32_t i = 0; i < map_->points.size(); ++i) {
       const MapView::Point& p = map_->points[i];
       if (taken[i]) continue;
-      const Visibility v = predict_visibility(view_, T_cw, T_wc_.translation(), p.position,
-                                              p.normal, p.base_distance);
+      const Visibility v = see(T_cw, p);
       if (!v.visible) continue;
       expected.push_back({i, v.pixel.cast<float>(),
                           static_cast<float>(radius * view_.scale(v.octave)),
@@ -117,11 +121,8 @@ class Attempt {
   int count_visible() const {
     const SE3 T_cw = T_wc_.inverse();
     return static_cast<int>(
-        std::count_if(map_->points.begin(), map_->points.end(), [&](const MapView::Point& p) {
-          return predict_visibility(view_, T_cw, T_wc_.translation(), p.position, p.normal,
-                                    p.base_distance)
-              .visible;
-        }));
+        std::count_if(map_->points.begin(), map_->points.end(),
+                      [&](const MapView::Point& p) { return see(T_cw, p).visible; }));
   }
 
   void gather() {
