@@ -157,6 +157,7 @@ RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& 
   summary.planes = result.planes.size();
   summary.objects = result.objects.size();
   summary.scale = describe(result.scale);
+  summary.readout = result.readout;
   summary.reprojection = {result.reprojection.median_px, result.reprojection.p75_px,
                           result.reprojection.p95_px, result.reprojection.observations};
   if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
@@ -224,6 +225,10 @@ void print_outcome(const RunDescription& run, const std::vector<FrameRecord>& fr
   if (has_planes(landmarks)) std::printf("  planes     %8zu\n", result.planes.size());
   if (has_objects(landmarks)) std::printf("  objects    %8zu\n", result.objects.size());
   if (result.scale.known()) print_scale(result.scale);
+  if (result.readout != 0) {
+    std::printf("  shutter    %8.1f  ms from the first row of a picture to the last\n",
+                1000 * result.readout);
+  }
   if (total != stages.end()) {
     std::printf("  tracking   %8.1f  ms a frame (median), %.1f ms (95th percentile)\n",
                 total->second.median_ms, total->second.p95_ms);

@@ -128,7 +128,7 @@ void add_switches(CLI::App& command, Arguments& arguments) {
   command.add_flag("--no-mosaic", arguments.no_mosaic, "a sensor that sees all colours everywhere");
   command
       .add_option("--rolling-shutter", arguments.readout_ms,
-                  "milliseconds from the first row to the last [20, in the street 0]")
+                  "milliseconds from the first row to the last [25, in the street 0]")
       ->check(CLI::Range(0.0, 100.0));
 }
 

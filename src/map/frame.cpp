@@ -1,5 +1,7 @@
 #include "cairn/map/frame.h"
 
+#include <algorithm>
+
 namespace cairn {
 namespace {
 
@@ -43,7 +45,38 @@ View::View(const Camera& camera, int levels, double scale, double sigma_px)
   for (int i = 0; i < std::max(levels, 2); ++i) scale_.push_back(std::pow(scale, i));
 }
 
-Undistorter::Undistorter(const Camera& camera) {
+void unroll(Frame& frame, const Pinhole& pinhole, std::span<const double> depths, double readout,
+            const Vector6d& velocity) {
+  if (frame.rows.empty()) return;
+  frame.readout = readout;
+  frame.velocity = velocity;
+  if (readout == 0 && frame.sighted.empty()) return;
+  if (frame.sighted.empty()) {
+    frame.sighted.reserve(frame.size());
+    for (const Keypoint& kp : frame.features.keypoints) frame.sighted.emplace_back(kp.x, kp.y);
+  }
+  const Vector6d motion = readout * velocity;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Eigen::Vector2f pixel =
+        seen_at_once(pinhole, frame.sighted_pixel(i), depths[i], frame.moment(i), motion)
+            .cast<float>();
+    frame.features.keypoints[i].x = pixel.x();
+    frame.features.keypoints[i].y = pixel.y();
+  }
+  frame.grid.build(frame.features.keypoints);
+  if (readout == 0) frame.sighted = {};
+}
+
+Eigen::Vector2d drift_by_readout(const Frame& frame, std::size_t keypoint, const Pinhole& pinhole,
+                                 double depth) {
+  constexpr double kStep = 0.01;  // seconds: about what cameras take
+  const Eigen::Vector2d pixel = frame.sighted_pixel(keypoint);
+  return (seen_at_once(pinhole, pixel, depth, frame.moment(keypoint), kStep * frame.velocity) -
+          pixel) /
+         kStep;
+}
+
+Undistorter::Undistorter(const Camera& camera) : height_(camera.height()) {
   needed_ = camera.model() == Camera::Model::kKannalaBrandt ||
             camera.distortion() != std::array<double, 5>{};
   if (!needed_) return;
@@ -60,8 +93,20 @@ Undistorter::Undistorter(const Camera& camera) {
   }
 }
 
-void Undistorter::apply(Features& features) const {
-  if (!needed_) return;
+void Undistorter::apply(Features& features, std::vector<std::uint8_t>* rows) const {
+  const auto note_row = [&](const Keypoint& kp) {
+    if (rows == nullptr) return;
+    const float part = (kp.y + 0.5F) / static_cast<float>(height_) * 256;
+    rows->push_back(static_cast<std::uint8_t>(std::clamp(part, 0.0F, 255.0F)));
+  };
+  if (rows != nullptr) {
+    rows->clear();
+    rows->reserve(features.size());
+  }
+  if (!needed_) {
+    for (const Keypoint& kp : features.keypoints) note_row(kp);
+    return;
+  }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     Keypoint kp = features.keypoints[i];
@@ -73,6 +118,7 @@ void Undistorter::apply(Features& features) const {
     const Eigen::Vector2f p = (1 - b) * ((1 - a) * row[0] + a * row[1]) +
                               b * ((1 - a) * row[columns_] + a * row[columns_ + 1]);
     if (!p.allFinite()) continue;
+    note_row(kp);
     kp.x = p.x();
     kp.y = p.y();
     features.keypoints[kept] = kp;

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cairn/features/features.h"
 #include "cairn/features/matching.h"
 #include "cairn/geometry/camera.h"
+#include "cairn/geometry/rolling_shutter.h"
 
 namespace cairn {
 
@@ -41,16 +44,30 @@ class View {
 };
 
 /// One picture as tracking and mapping see it: features at undistorted pixels, with a grid to find
-/// them. Immutable once built, shared between tracker and map.
+/// them. Immutable once tracked, shared between tracker and map.
 struct Frame {
   double timestamp = 0;  ///< seconds
-  Features features;     ///< at pixels of the ideal pinhole camera
+  Features features;     ///< at pixels of the ideal pinhole camera, as if all were seen at once
   KeypointGrid grid;
+  /// When the row of each keypoint was read, in 256ths of the time that all rows take; empty: all
+  /// at once. Finer steps would move keypoints by hundredths of a pixel.
+  std::vector<std::uint8_t> rows;
+  std::vector<Eigen::Vector2f> sighted;  ///< where rows saw the keypoints; empty: where they are
+  double readout = 0;                    ///< seconds from the first row to the last, as assumed
+  Vector6d velocity = Vector6d::Zero();  ///< tangent vector of the camera's motion a second
 
   std::size_t size() const { return features.size(); }
   Eigen::Vector2d pixel(std::size_t i) const {
     return {features.keypoints[i].x, features.keypoints[i].y};
   }
+  /// Where it is in the picture as it was taken, but for the bend of the lens.
+  Eigen::Vector2d sighted_pixel(std::size_t i) const {
+    return sighted.empty() ? pixel(i) : sighted[i].cast<double>();
+  }
+  /// Its rows were read while the camera moved.
+  bool rolls() const { return !rows.empty() && !velocity.isZero(0); }
+  /// When its row was read: -1/2 is the beginning, 1/2 the end of the readout.
+  double moment(std::size_t i) const { return (rows[i] + 0.5) / 256 - 0.5; }
   int octave(std::size_t i) const { return features.keypoints[i].octave; }
   /// Calls visit(index) for the keypoints in a window; see KeypointGrid::for_each.
   template <class Visit>
@@ -61,15 +78,28 @@ struct Frame {
   }
 };
 
+/// Moves the keypoints of a frame to where a shutter that opens for all rows at once would have
+/// seen them (see seen_at_once). `depths`: one a keypoint; `readout` and `velocity`: as in Frame,
+/// which keeps them. Frames that were seen at once stay as they are.
+void unroll(Frame& frame, const Pinhole& pinhole, std::span<const double> depths, double readout,
+            const Vector6d& velocity);
+
+/// Pixels by which an instant shutter would have seen a keypoint elsewhere, for each second of
+/// readout.
+Eigen::Vector2d drift_by_readout(const Frame& frame, std::size_t keypoint, const Pinhole& pinhole,
+                                 double depth);
+
 /// Moves keypoints of a real lens to the ideal pinhole, through a table made once.
 class Undistorter {
  public:
   explicit Undistorter(const Camera& camera);
-  /// Moves the keypoints in place; those without a pinhole position are removed.
-  void apply(Features& features) const;
+  /// Moves the keypoints in place; those without a pinhole position are removed. `rows`: as in
+  /// Frame.
+  void apply(Features& features, std::vector<std::uint8_t>* rows = nullptr) const;
 
  private:
   bool needed_ = false;
+  int height_ = 0;  // of the picture
   int columns_ = 0, rows_ = 0;
   std::vector<Eigen::Vector2f> table_;
 };

@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace cairn {
+namespace {
+
+constexpr double kInstant = 0.004;     // seconds: shutters that take less may as well not roll
+constexpr double kReadoutStep = 2e-4;  // seconds: less moves keypoints by hundredths of a pixel
+constexpr double kFar = 1e9;
+
+}  // namespace
 
 KeyframeId Map::add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc) {
   Keyframe keyframe;
@@ -15,6 +22,32 @@ KeyframeId Map::add_keyframe(std::shared_ptr<const Frame> frame, const SE3& T_wc
   newest_ = keyframes_.insert(std::move(keyframe));
   if (!first_.valid()) first_ = newest_;
   return newest_;
+}
+
+std::vector<double> Map::depths(KeyframeId id) const {
+  const Keyframe& keyframe = keyframes_[id];
+  const double most = depth_quantile(id, 0.5);
+  const SE3 T_cw = keyframe.T_wc.inverse();
+  std::vector<double> depths(keyframe.points.size(), most > 0 ? most : kFar);
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (!keyframe.points[i].valid()) continue;
+    const double z = (T_cw * points_[keyframe.points[i]].position).z();
+    if (z > 0) depths[i] = z;
+  }
+  return depths;
+}
+
+void Map::set_readout(double estimate) {
+  readout_estimate_ = estimate;
+  readout_ = std::abs(estimate) < kInstant ? 0 : estimate;
+  keyframes_.for_each([&](KeyframeId id, Keyframe& keyframe) {
+    if (!keyframe.frame->rolls() || std::abs(readout_ - keyframe.frame->readout) < kReadoutStep) {
+      return;
+    }
+    auto frame = std::make_shared<Frame>(*keyframe.frame);
+    unroll(*frame, view_.pinhole(), depths(id), readout_, frame->velocity);
+    keyframe.frame = std::move(frame);
+  });
 }
 
 // Stretched from m, the logarithms' mean becomes μ' = m + c (μ − m) and their variance c² v. The

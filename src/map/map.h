@@ -87,6 +87,13 @@ class Map {
   /// tracking and mapping work with the calibration as given.
   LensCorrection& lens() { return lens_; }
   const LensCorrection& lens() const { return lens_; }
+  /// Seconds that the shutter takes from the first row of a picture to the last; 0: so few that it
+  /// may as well not roll.
+  double readout() const { return readout_; }
+  /// The same as the map's keyframes show it.
+  double readout_estimate() const { return readout_estimate_; }
+  /// Keyframes are made anew for which that makes a difference.
+  void set_readout(double estimate);
   SlotMap<Keyframe, KeyframeId>& keyframes() { return keyframes_; }
   const SlotMap<Keyframe, KeyframeId>& keyframes() const { return keyframes_; }
   SlotMap<MapPoint, PointId>& points() { return points_; }
@@ -167,6 +174,8 @@ class Map {
   double depth_quantile(KeyframeId id, double quantile) const;
   /// Number of points of a keyframe that at least `min_observations` keyframes see.
   int tracked_points(KeyframeId id, int min_observations) const;
+  /// Depths at the keypoints of a keyframe; where no point is, that of most.
+  std::vector<double> depths(KeyframeId id) const;
 
   KeyframeId newest() const { return newest_; }
   KeyframeId first() const { return first_; }
@@ -179,6 +188,7 @@ class Map {
 
   View view_;
   LensCorrection lens_;
+  double readout_ = 0, readout_estimate_ = 0;
   SlotMap<Keyframe, KeyframeId> keyframes_;
   SlotMap<MapPoint, PointId> points_;
   SlotMap<PlaneLandmark, PlaneId> planes_;

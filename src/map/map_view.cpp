@@ -60,6 +60,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->median_depth = map.depth_quantile(reference, 0.5);
   view->map_keyframes = map.keyframes().size();
   view->map_points = map.points().size();
+  view->readout = map.readout();
   view->units_a_metre = map.units_a_metre;
 
   std::vector<PointId> ids;

@@ -49,6 +49,7 @@ struct MapView {
   std::vector<KeyframePose> keyframes;            ///< local ones, in order of ids
   std::vector<PlanePose> planes;                  ///< of the whole map, in order of ids
   std::vector<ObjectPose> objects;                ///< those that are born, in order of ids
+  double readout = 0;                             ///< of the shutter, seconds (Map::readout)
   double units_a_metre = 0;                       ///< of the plane detector; 0: unknown
 
   static constexpr std::uint32_t kNone = 0xffffffffU;

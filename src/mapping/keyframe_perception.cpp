@@ -34,7 +34,7 @@ std::vector<cv::Point> pixels_in_picture(const Frame& frame, const Camera& camer
   std::vector<cv::Point> pixels;
   pixels.reserve(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const Eigen::Vector2d uv = camera.project(view.pinhole().unproject(frame.pixel(i)));
+    const Eigen::Vector2d uv = camera.project(view.pinhole().unproject(frame.sighted_pixel(i)));
     pixels.emplace_back(std::clamp(cvRound((uv.x() + 0.5) * sx - 0.5), 0, size.width - 1),
                         std::clamp(cvRound((uv.y() + 0.5) * sy - 0.5), 0, size.height - 1));
   }

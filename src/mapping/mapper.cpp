@@ -23,7 +23,9 @@ constexpr std::uint32_t kProbation = 3;  // keyframes
 
 }  // namespace
 
-Mapper::Mapper(const View& view, const MappingOptions& options) : options_(options), map_(view) {}
+Mapper::Mapper(const View& view, const MappingOptions& options) : options_(options), map_(view) {
+  map_.set_readout(options.readout);
+}
 
 bool Mapper::initialize(const InitialPair& initial) {
   const KeyframeId first = map_.add_keyframe(initial.frame1, SE3());
@@ -90,7 +92,7 @@ void Mapper::measure(PointId id) {
 void Mapper::join(const KeyframePerception& seen) {
   KeyframeId keyframe;
   map_.keyframes().for_each([&](KeyframeId id, const Keyframe& k) {
-    if (k.frame == seen.frame) keyframe = id;
+    if (k.timestamp() == seen.frame->timestamp) keyframe = id;
   });
   if (!keyframe.valid()) return;
   join_planes(keyframe, seen);
@@ -139,7 +141,8 @@ void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
 void Mapper::adjust(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() > 2) {
     const AdjustmentSummary s = adjust_locally(map_, current_, options_.adjustment, abort);
-    spdlog::debug("local adjustment: {}", s.to_string());
+    spdlog::debug("local adjustment: {}; readout {:.1f} ms", s.to_string(),
+                  1000 * map_.readout_estimate());
   }
   cull_keyframes();
   publish(current_);
@@ -152,7 +155,8 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
-  spdlog::info("full adjustment: {}; then {} points fused", summary.to_string(), fused);
+  spdlog::info("full adjustment: {}; then {} points fused; readout {:.2f} ms", summary.to_string(),
+               fused, 1000 * map_.readout_estimate());
   if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort);
   if (options_.refine_lens) {
     summary = adjust_fully(map_, options_.adjustment, true, abort);

@@ -28,6 +28,7 @@ struct MappingOptions {
   int max_local_points = 4000;    ///< points in a published view
   double redundancy = 0.8;        ///< share of its points seen elsewhere that makes a keyframe go
   bool refine_lens = true;        ///< the full adjustment estimates what the calibration got wrong
+  double readout = 0;             ///< of the shutter, seconds; where it is estimated, a first guess
   AdjustmentOptions adjustment;
   PlaneMappingOptions planes;
   ObjectMappingOptions objects;

@@ -50,7 +50,7 @@ std::vector<SeenObject> see_objects(std::span<const DetectedObject> detected, co
     seen.score = d.score;
     seen.thing = d.thing;
     for (std::uint32_t i = 0; i < frame.size(); ++i) {
-      const Eigen::Vector2d uv = frame.pixel(i);
+      const Eigen::Vector2d uv = frame.sighted_pixel(i);
       if (view.contains(uv) && box->contains(uv)) seen.keypoints.push_back(i);
     }
     objects.push_back(std::move(seen));

@@ -1,6 +1,7 @@
 #include "cairn/optimization/map_adjustment.h"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
 #include "cairn/optimization/factors/predicted_depth_factor.h"
+#include "cairn/optimization/factors/rolling_point_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
 #include "cairn/optimization/object_blocks.h"
 #include "cairn/optimization/plane_blocks.h"
@@ -26,6 +28,9 @@ constexpr double kGate = 5.991;       // χ², 2 degrees of freedom, 95 %
 // How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
 // errors of a point's observations are alike, so the data are less sure than they look, and the
 // prior has to be firm: where motion hardly shows the lens, it must not drift away.
+// Seconds. Most cameras read within a frame of a film; from one local adjustment to the next little
+// is learnt, as they share most of what they see.
+constexpr double kReadoutSigma = 0.02, kReadoutStep = 0.005, kLongestReadout = 0.05;
 constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 0.003, 0.7, 0.7};
 
 // A part of the map as a least-squares problem: contiguous parameters, filled from the map, written
@@ -40,6 +45,10 @@ class Adjustment {
         refine_lens_(refine_lens),
         depth_options_(options.planes.predicted_depth),
         lens_(map.lens()),
+        estimate_readout_(options.estimate_readout && !refine_lens),
+        readout_(map.readout_estimate()),
+        readout_prior_(ceres::Matrix::Constant(1, 1, 1 / (full ? kReadoutSigma : kReadoutStep)),
+                       ceres::Vector::Constant(1, full ? 0.0 : map.readout_estimate())),
         keyframes_(std::move(free)),
         points_(std::move(points)),
         planes_(map, options.planes),
@@ -106,6 +115,8 @@ class Adjustment {
 
   void write_back() {
     map_.lens() = lens_;
+    if (estimate_readout_)
+      map_.set_readout(std::clamp(readout_, -kLongestReadout, kLongestReadout));
     for (std::size_t i = 0; i < free_count_; ++i) {
       map_.keyframes()[keyframes_[i]].T_wc = SE3Manifold::unpack(&pose_values_[7 * i]);
     }
@@ -186,7 +197,11 @@ class Adjustment {
       const double sigma = map_.view().sigma(frame.octave(edge.keypoint));
       double* pose = &pose_values_[std::size_t{7} * edge.keyframe];
       double* point = &point_values_[std::size_t{3} * edge.point];
-      if (refine_lens_) {
+      if (estimate_readout_ && frame.rolls()) {
+        rolling_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma, frame.readout,
+                                      drift(edge));
+        problem_->AddResidualBlock(&rolling_factors_.back(), &loss_, pose, point, &readout_);
+      } else if (refine_lens_) {
         lens_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
         problem_->AddResidualBlock(&lens_factors_.back(), &loss_, pose, point, lens_.values.data());
       } else {
@@ -197,7 +212,20 @@ class Adjustment {
     if (depth_options_.use && map_.units_a_metre > 0) add_depths();
     if (!map_.planes().empty() || !map_.objects().empty()) add_landmarks();
     hold_unit();
+    if (!rolling_factors_.empty()) {
+      ordering_->AddElementToGroup(&readout_, kLensGroup);
+      problem_->AddResidualBlock(&readout_prior_, nullptr, &readout_);
+    }
     if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
+  }
+
+  // Pixels by which an instant shutter would have seen a keypoint elsewhere, were the readout one
+  // second longer.
+  Eigen::Vector2d drift(const Edge& edge) const {
+    const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
+    const double z = (keyframe.T_wc.inverse() * map_.points()[points_[edge.point]].position).z();
+    if (!(z > 0)) return Eigen::Vector2d::Zero();
+    return drift_by_readout(*keyframe.frame, edge.keypoint, map_.view().pinhole(), z);
   }
 
   // A few a keyframe, as unsure together as the one scale of the picture.
@@ -293,6 +321,9 @@ class Adjustment {
   FactorOptions depth_options_;
   double log_units_ = 0;  // of the map a metre
   LensCorrection lens_;
+  bool estimate_readout_;
+  double readout_;
+  ceres::NormalPrior readout_prior_;
   std::vector<KeyframeId> keyframes_;  // the free ones first
   std::size_t free_count_ = 0;
   std::vector<PointId> points_;
@@ -302,6 +333,7 @@ class Adjustment {
   std::deque<PointFactor> factors_;
   std::deque<PredictedDepthFactor> depth_factors_;
   std::deque<LensPointFactor> lens_factors_;
+  std::deque<RollingPointFactor> rolling_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
   std::optional<PoseBlocks> poses_;

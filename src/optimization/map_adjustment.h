@@ -14,6 +14,7 @@ struct AdjustmentOptions {
   int fixed = 30;   ///< keyframes that hold it, at most
   int local_iterations = 8;
   int full_iterations = 40;
+  bool estimate_readout = true;  ///< how long a rolling shutter takes to read a picture
   PlaneFactorOptions planes;
   ObjectFactorOptions objects;
 };

@@ -108,6 +108,7 @@ Json to_json(const RunSummary& summary) {
           {"points", summary.points},
           {"planes", summary.planes},
           {"objects", summary.objects},
+          {"readout_s", summary.readout},
           {"reprojection",
            {{"median_px", summary.reprojection.median_px},
             {"p75_px", summary.reprojection.p75_px},

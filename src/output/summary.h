@@ -65,6 +65,7 @@ struct RunSummary {
   std::vector<Gap> gaps;
   int restarts = 0;
   std::size_t keyframes = 0, points = 0, planes = 0, objects = 0;
+  double readout = 0;         ///< of a rolling shutter, seconds; 0: it does not roll
   Reprojection reprojection;  ///< of the keyframes' keypoints in the final map
   Scale scale;
   double duration_s = 0;                        ///< wall time of the run, seconds

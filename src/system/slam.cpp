@@ -66,12 +66,12 @@ struct Slam::Implementation {
     }
   }
 
-  std::shared_ptr<const Frame> make_frame(const cv::Mat& picture, double timestamp);
+  std::shared_ptr<Frame> make_frame(const cv::Mat& picture, double timestamp);
   void initialise(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
-  bool track(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input,
+  bool track(const std::shared_ptr<Frame>& frame, const PerceptionInput& input,
              FrameRecord& record);
   void lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record);
-  bool recover(const std::shared_ptr<const Frame>& frame, const PerceptionInput& input,
+  bool recover(const std::shared_ptr<Frame>& frame, const PerceptionInput& input,
                FrameRecord& record);
   std::vector<SeenObject> objects_in_sight(const std::shared_ptr<const Frame>& frame,
                                            const PerceptionInput& input);
@@ -132,14 +132,13 @@ std::vector<FrameResult::Feature> Slam::Implementation::seen_features(const Fram
   features.reserve(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const Eigen::Vector2f pixel =
-        camera.project(view.pinhole().unproject(frame.pixel(i))).cast<float>();
+        camera.project(view.pinhole().unproject(frame.sighted_pixel(i))).cast<float>();
     features.push_back({pixel.x(), pixel.y(), tracked && tracker.last().points[i].valid()});
   }
   return features;
 }
 
-std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& picture,
-                                                              double timestamp) {
+std::shared_ptr<Frame> Slam::Implementation::make_frame(const cv::Mat& picture, double timestamp) {
   auto frame = std::make_shared<Frame>();
   frame->timestamp = timestamp;
   cv::Mat grey = picture;
@@ -156,7 +155,7 @@ std::shared_ptr<const Frame> Slam::Implementation::make_frame(const cv::Mat& pic
       kp.colour = {bgr[2], bgr[1], bgr[0]};
     }
   }
-  undistorter.apply(extracted);
+  undistorter.apply(extracted, &frame->rows);
   frame->features = extracted;  // a copy that holds no more memory than it needs
   frame->grid.build(frame->features.keypoints);
   return frame;
@@ -168,7 +167,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   FrameResult result;
   FrameRecord& record = result.record;
   record.timestamp = timestamp;
-  const std::shared_ptr<const Frame> frame = s.make_frame(picture, timestamp);
+  const std::shared_ptr<Frame> frame = s.make_frame(picture, timestamp);
   record.extract_ms = milliseconds_since(start);
   const PerceptionInput input{picture, depth, timestamp};
   double mapping_ms = 0;
@@ -234,8 +233,8 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
                map_view->points.size());
 }
 
-bool Slam::Implementation::track(const std::shared_ptr<const Frame>& frame,
-                                 const PerceptionInput& input, FrameRecord& record) {
+bool Slam::Implementation::track(const std::shared_ptr<Frame>& frame, const PerceptionInput& input,
+                                 FrameRecord& record) {
   PlanesInSight planes_in_sight;
   if (perception && has_planes(options.landmarks)) {
     planes_in_sight = [&] { return perception->planes_now(frame, input); };
@@ -282,7 +281,7 @@ void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, Frame
 }
 
 // A lost frame: asks where it is; goes on from the answer once there is one.
-bool Slam::Implementation::recover(const std::shared_ptr<const Frame>& frame,
+bool Slam::Implementation::recover(const std::shared_ptr<Frame>& frame,
                                    const PerceptionInput& input, FrameRecord& record) {
   const auto start = std::chrono::steady_clock::now();
   if (!mapping->relocalizing()) {
@@ -371,6 +370,7 @@ SlamResult Slam::finish() {
   result.scale = mapper.scale();
   if (s.options.scale > 0) result.scale = given_scale(result.scale, s.options.scale);
   if (result.scale.known()) to_metres(result);
+  result.readout = map.readout();
   result.reprojection = reprojection_error(map);
   return result;
 }

@@ -63,6 +63,7 @@ struct SlamResult {
   std::vector<MappedObject> objects;
   std::map<std::string, int> object_refusals;  ///< how often one could not be born, by reason
   ScaleEstimate scale;
+  double readout = 0;  ///< of the shutter: seconds from a picture's first row to its last
   ReprojectionError reprojection;
   std::vector<Gap> gaps;  ///< losses and recoveries
   int restarts = 0;       ///< maps given up within their first seconds

@@ -28,6 +28,7 @@ constexpr PlaneAssociationOptions kLoose = {.max_angle_deg = 45, .max_offset = 0
 // What hands and vehicles do to a camera between two frames.
 constexpr double kAcceleration = 15;      // median depths a second squared
 constexpr double kTurnAcceleration = 30;  // radians a second squared
+constexpr double kEvenMotion = 0.15;      // seconds for which a motion is taken to last
 constexpr double kFrontalCosine = 0.998;
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth
@@ -75,13 +76,46 @@ SE3 Tracker::predict(double timestamp) const {
   return last_.T_wc * SE3::exp(velocity_.log() * (dt / velocity_seconds_));
 }
 
-const TrackedFrame* Tracker::track(std::shared_ptr<const Frame> frame,
+// Of the camera since the last frame, should it be at T_wc; none where that was too long ago.
+Vector6d Tracker::velocity_at(double timestamp, const SE3& T_wc) const {
+  const double dt = std::max(timestamp - last_.frame->timestamp, 1e-6);
+  if (dt > kEvenMotion) return Vector6d::Zero();
+  return (last_.T_wc.inverse() * T_wc).log() / dt;
+}
+
+// Points that are matched say how deep they are; the others are taken to be as deep as most.
+void Tracker::unroll(Frame& frame, const SE3& T_wc) {
+  const SE3 T_cw = T_wc.inverse();
+  depths_.assign(frame.size(), map_->median_depth);
+  for (std::size_t i = 0; i < current_points_.size(); ++i) {
+    if (current_points_[i] == kNoPoint) continue;
+    const double z = (T_cw * map_->points[current_points_[i]].position).z();
+    if (z > 0) depths_[i] = z;
+  }
+  cairn::unroll(frame, view_.pinhole(), depths_, map_->readout, velocity_at(frame.timestamp, T_wc));
+}
+
+void Tracker::unroll_observations(const Frame& frame, const SE3& T_wc) {
+  const SE3 T_cw = T_wc.inverse();
+  const Vector6d motion = map_->readout * velocity_at(frame.timestamp, T_wc);
+  for (std::size_t k = 0; k < observations_.size(); ++k) {
+    const std::uint32_t i = observed_keypoints_[k];
+    const double z = (T_cw * observations_[k].position).z();
+    if (!(z > 0)) continue;
+    observations_[k].pixel =
+        seen_at_once(view_.pinhole(), frame.sighted_pixel(i), z, frame.moment(i), motion);
+  }
+}
+
+const TrackedFrame* Tracker::track(std::shared_ptr<Frame> frame,
                                    const std::shared_ptr<const MapView>& view, FrameRecord& record,
                                    const PlanesInSight& planes_in_sight) {
   Stopwatch watch;
   adopt_view(view);
   support_.reset();
   SE3 T_wc = predict(frame->timestamp);
+  current_points_.clear();  // none is known yet
+  unroll(*frame, T_wc);
   bool ok = track_motion(*frame, T_wc);
   if (!ok) {
     T_wc = last_.T_wc;
@@ -98,6 +132,7 @@ const TrackedFrame* Tracker::track(std::shared_ptr<const Frame> frame,
   record.local_map_ms = watch.lap();
   if (!ok) return nullptr;
 
+  unroll(*frame, T_wc);
   has_velocity_ = true;
   velocity_ = last_.T_wc.inverse() * T_wc;
   velocity_seconds_ = std::max(frame->timestamp - last_.frame->timestamp, 1e-6);
@@ -247,8 +282,16 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc) {
         {map_->points[current_points_[i]].position, frame.pixel(i), view_.sigma(frame.octave(i))});
     observed_keypoints_.push_back(i);
   }
-  const PoseAdjustmentSummary summary =
-      adjust_pose(observations_, view_.pinhole(), T_wc, inlier_, support_ ? &*support_ : nullptr);
+  const auto adjust = [&] {
+    return adjust_pose(observations_, view_.pinhole(), T_wc, inlier_,
+                       support_ ? &*support_ : nullptr);
+  };
+  PoseAdjustmentSummary summary = adjust();
+  // How the camera moves while its shutter rolls is known once its pose is.
+  if (summary.usable && map_->readout != 0 && !frame.rows.empty()) {
+    unroll_observations(frame, T_wc);
+    summary = adjust();
+  }
   for (std::size_t k = 0; k < observed_keypoints_.size(); ++k) {
     if (!inlier_[k]) current_points_[observed_keypoints_[k]] = kNoPoint;
   }

@@ -46,9 +46,10 @@ class Tracker {
  public:
   Tracker(const View& view, const TrackingOptions& options);
 
-  /// The pose of a frame, or nothing if the map was lost. `view` is the newest there is. Fills the
-  /// stage times of `record`.
-  const TrackedFrame* track(std::shared_ptr<const Frame> frame,
+  /// The pose of a frame, or nothing if the map was lost. `view` is the newest there is. Moves the
+  /// frame's keypoints to where a shutter would have seen them that does not roll. Fills the stage
+  /// times of `record`.
+  const TrackedFrame* track(std::shared_ptr<Frame> frame,
                             const std::shared_ptr<const MapView>& view, FrameRecord& record,
                             const PlanesInSight& planes_in_sight = {});
 
@@ -66,6 +67,9 @@ class Tracker {
  private:
   void adopt_view(const std::shared_ptr<const MapView>& view);
   SE3 predict(double timestamp) const;
+  Vector6d velocity_at(double timestamp, const SE3& T_wc) const;
+  void unroll(Frame& frame, const SE3& T_wc);
+  void unroll_observations(const Frame& frame, const SE3& T_wc);
   bool track_motion(const Frame& frame, SE3& T_wc);
   bool track_reference(const Frame& frame, SE3& T_wc);
   bool track_local_map(const Frame& frame, SE3& T_wc);
@@ -93,6 +97,7 @@ class Tracker {
   std::vector<std::uint32_t> observed_keypoints_;
   std::vector<char> inlier_;
   std::vector<char> seen_;
+  std::vector<double> depths_;
 };
 
 }  // namespace cairn

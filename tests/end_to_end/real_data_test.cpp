@@ -73,6 +73,7 @@ TEST(RealData, Freiburg1IsTrackedWithinCentimetres) {
   const EvaluationReport report = compare(played, "tum_fr1_xyz/groundtruth.txt");
   EXPECT_GT(report.coverage, 0.7);
   EXPECT_LT(report.ate.rmse, 0.025);
+  EXPECT_NEAR(played.result.readout, 0.026, 0.008) << "the first Kinect's shutter rolls";
 }
 
 TEST(RealData, KittiIsTrackedAlongItsStreet) {
@@ -82,6 +83,7 @@ TEST(RealData, KittiIsTrackedAlongItsStreet) {
   const EvaluationReport report = compare(played, "kitti_00/poses/00.txt");
   EXPECT_GT(report.coverage, 0.8);
   EXPECT_LT(report.ate.rmse, 0.25);
+  EXPECT_EQ(played.result.readout, 0) << "this camera's shutter does not roll";
 }
 
 }  // namespace

@@ -70,6 +70,62 @@ TEST(Undistorter, RemovesWhatNoPinholeCanSee) {
   }
 }
 
+TEST(Undistorter, NotesWhenEachRowWasRead) {
+  const Features before = random_features(500, 5);
+  for (const Camera& camera :
+       {freiburg1(), Camera(Camera::Model::kRadialTangential, 640, 480, testing::kCamera)}) {
+    Features features = before;
+    Frame frame;
+    Undistorter(camera).apply(features, &frame.rows);
+    ASSERT_EQ(frame.rows.size(), features.size());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      // Of the row in the picture, not of where its pinhole would see it.
+      EXPECT_NEAR(frame.moment(i), (before.keypoints[i].y + 0.5) / 480 - 0.5, 0.5 / 256 + 1e-6);
+    }
+  }
+}
+
+Frame rolling_frame() {
+  Frame frame;
+  frame.features = random_features(300, 6);
+  Undistorter(Camera(Camera::Model::kRadialTangential, 640, 480, testing::kCamera))
+      .apply(frame.features, &frame.rows);
+  frame.grid.build(frame.features.keypoints);
+  return frame;
+}
+
+TEST(Frame, IsUnrolledFromWhatItsRowsSawHoweverOften) {
+  const Vector6d velocity = (Vector6d() << 0.2, 0, 0.1, 0.1, 0.3, -0.1).finished();
+  const std::vector<double> depths(300, 2.0);
+  Frame frame = rolling_frame();
+  unroll(frame, testing::kCamera, depths, 0.04, 2 * velocity);
+  unroll(frame, testing::kCamera, depths, 0.025, velocity);
+  EXPECT_EQ(frame.readout, 0.025);
+  EXPECT_EQ(frame.velocity, velocity);
+  double farthest = 0;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const Eigen::Vector2d expected = seen_at_once(testing::kCamera, frame.sighted_pixel(i), 2,
+                                                  frame.moment(i), 0.025 * velocity);
+    EXPECT_LT((frame.pixel(i) - expected).norm(), 1e-3);
+    farthest = std::max(farthest, (frame.pixel(i) - frame.sighted_pixel(i)).norm());
+    // It is found where it is now.
+    bool found = false;
+    frame.for_each_near(expected.cast<float>(), 1, 0, 8, [&](std::uint32_t k) { found |= k == i; });
+    EXPECT_TRUE(found);
+  }
+  EXPECT_GT(farthest, 1);
+  unroll(frame, testing::kCamera, depths, 0, velocity);
+  EXPECT_EQ(frame.features.keypoints, rolling_frame().features.keypoints);
+}
+
+TEST(Frame, WithoutRowsWasSeenAtOnce) {
+  Frame frame = rolling_frame();
+  frame.rows.clear();
+  unroll(frame, testing::kCamera, {}, 0.025, Vector6d::Ones());
+  EXPECT_EQ(frame.features.keypoints, rolling_frame().features.keypoints);
+  EXPECT_EQ(frame.sighted_pixel(7), frame.pixel(7));
+}
+
 TEST(View, ContainsEveryUndistortedPixelOfThePicture) {
   const View view(freiburg1(), 8, 1.2, 1);
   Features features = random_features(2000, 4);

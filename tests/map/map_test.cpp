@@ -64,6 +64,33 @@ TEST(Map, LinksStayConsistentUnderRandomOperations) {
   }
 }
 
+TEST(Map, AnotherReadoutMovesKeypointsByTheDepthOfTheirPoints) {
+  const std::vector<Vector6d> velocities(5, (Vector6d() << 0.5, 0, 0, 0, 0.4, 0).finished());
+  PointWorld world(12, {.noise = 0, .clutter = 0, .readout = 0.025});
+  Map map = true_map(world, kWalk, velocities);
+  double rolled = 0, unrolled = 0;
+  const auto worst = [&] {
+    double worst = 0;
+    map.points().for_each([&](PointId, const MapPoint& p) {
+      for (const Observation& o : p.observations) {
+        const Keyframe& k = map.keyframes()[o.keyframe];
+        const Eigen::Vector2d at = map.view().pinhole().project(k.T_wc.inverse() * p.position);
+        worst = std::max(worst, (at - k.frame->pixel(o.keypoint)).norm());
+      }
+    });
+    return worst;
+  };
+  rolled = worst();
+  map.set_readout(0.025);
+  unrolled = worst();
+  EXPECT_GT(rolled, 1);
+  EXPECT_LT(unrolled, 0.02);
+  map.set_readout(0.003);  // as good as none
+  EXPECT_EQ(map.readout(), 0);
+  EXPECT_EQ(map.readout_estimate(), 0.003);
+  EXPECT_NEAR(worst(), rolled, 1e-9);
+}
+
 TEST(Map, APointThatFewerThanTwoKeyframesSeeVanishes) {
   Map map(testing::point_view());
   const KeyframeId a = map.add_keyframe(plain_frame(3), SE3());

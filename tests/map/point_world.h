@@ -27,6 +27,7 @@ class PointWorld {
     double noise = 0.6;       ///< pixels at octave 0
     double bit_flips = 0.05;  ///< share of the bits of a descriptor
     int clutter = 100;        ///< keypoints of nothing a frame
+    double readout = 0;       ///< of a rolling shutter, seconds
   };
 
   /// Points from 3 to 8 in front of the camera at the origin.
@@ -44,10 +45,12 @@ class PointWorld {
     }
   }
 
-  /// What a camera at T_wc sees.
-  std::shared_ptr<const Frame> show(const SE3& T_wc, double timestamp) {
+  /// What a camera at T_wc sees, whose shutter rolls while it moves by `velocity` a second.
+  std::shared_ptr<Frame> show(const SE3& T_wc, double timestamp,
+                              const Vector6d& velocity = Vector6d::Zero()) {
     auto frame = std::make_shared<Frame>();
     frame->timestamp = timestamp;
+    frame->velocity = velocity;
     Sight sight{T_wc, {}};
     const SE3 T_cw = T_wc.inverse();
     const View& view = point_view();
@@ -59,7 +62,7 @@ class PointWorld {
       if (X.z() < 0.3 || octave < 0 || octave >= view.levels()) continue;
       const double dx = random_.gaussian(), dy = random_.gaussian();
       const Eigen::Vector2d pixel =
-          kCamera.project(X) + options_.noise * view.scale(octave) * Eigen::Vector2d(dx, dy);
+          rolling(X, velocity) + options_.noise * view.scale(octave) * Eigen::Vector2d(dx, dy);
       if (!view.contains(pixel)) continue;
       add(*frame, pixel, octave, p.angle, noisy(p.descriptor));
       sight.points.push_back(static_cast<int>(i));
@@ -68,6 +71,11 @@ class PointWorld {
       const double x = random_.uniform(0, 639), y = random_.uniform(0, 479);
       add(*frame, {x, y}, random_.below(8), 0, random_descriptor());
       sight.points.push_back(-1);
+    }
+    if (options_.readout != 0) {
+      for (const Keypoint& kp : frame->features.keypoints) {
+        frame->rows.push_back(static_cast<std::uint8_t>(256 * (moment(kp.y) + 0.5)));
+      }
     }
     frame->grid.build(frame->features.keypoints);
     sights_[frame.get()] = std::move(sight);
@@ -132,6 +140,18 @@ class PointWorld {
     frame.features.descriptors.push_back(descriptor);
   }
 
+  static double moment(double row) { return (row + 0.5) / 480 - 0.5; }
+
+  // Where the row sees a point that is read at the moment when the point is there.
+  Eigen::Vector2d rolling(const Eigen::Vector3d& X_c, const Vector6d& velocity) const {
+    Eigen::Vector2d pixel = kCamera.project(X_c);
+    for (int i = 0; i < (options_.readout != 0 ? 10 : 0); ++i) {
+      const SE3 T_mid_row = SE3::exp(moment(pixel.y()) * options_.readout * velocity);
+      pixel = kCamera.project(T_mid_row.inverse() * X_c);
+    }
+    return pixel;
+  }
+
   Options options_;
   Random random_;
   std::vector<Point> points_;
@@ -146,15 +166,17 @@ inline SE3 along(double s) {
 }
 
 /// A map in which all is true: keyframes at these poses and every point that two of them see.
-inline Map true_map(PointWorld& world, std::span<const SE3> poses) {
+inline Map true_map(PointWorld& world, std::span<const SE3> poses,
+                    std::span<const Vector6d> velocities = {}) {
   Map map(point_view());
   std::map<int, std::vector<Observation>> seen;
   double timestamp = 0;
-  for (const SE3& T_wc : poses) {
-    const auto frame = world.show(T_wc, timestamp += 0.5);
-    const KeyframeId id = map.add_keyframe(frame, T_wc);
-    for (std::uint32_t i = 0; i < frame->size(); ++i) {
-      if (const int p = world.point_of(*frame, i); p >= 0) seen[p].push_back({id, i});
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto frame = world.show(poses[i], timestamp += 0.5,
+                                  velocities.empty() ? Vector6d::Zero() : velocities[i]);
+    const KeyframeId id = map.add_keyframe(frame, poses[i]);
+    for (std::uint32_t k = 0; k < frame->size(); ++k) {
+      if (const int p = world.point_of(*frame, k); p >= 0) seen[p].push_back({id, k});
     }
   }
   for (const auto& [p, observations] : seen) {

@@ -90,6 +90,63 @@ TEST(FullAdjustment, KeepsTheUnitOfTheMap) {
   EXPECT_NEAR(spread() / before, 1, 1e-9);
 }
 
+// Ten keyframes of a camera in a shaking hand.
+struct RollingWalk {
+  explicit RollingWalk(double readout) : world(39, {.noise = 0.5, .readout = readout}) {
+    Random random(9);
+    for (int i = 0; i < 10; ++i) {
+      poses.push_back(along(i * 0.2));
+      velocities.push_back(random.motion(0.6, 0.8).log());
+    }
+    map = testing::true_map(world, poses, velocities);
+  }
+  double worst_rotation_deg() const {
+    double worst = 0;
+    int i = 0;
+    map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
+      worst = std::max(worst, testing::rotation_error_deg(k.T_wc, poses[i++]));
+    });
+    return worst;
+  }
+
+  PointWorld world;
+  std::vector<SE3> poses;
+  std::vector<Vector6d> velocities;
+  Map map{testing::point_view()};
+};
+
+TEST(FullAdjustment, FindsHowTheShutterRolls) {
+  RollingWalk walk(0.025);
+  ASSERT_TRUE(adjust_fully(walk.map, {}, false, nullptr).usable);
+  EXPECT_NEAR(walk.map.readout(), 0.025, 0.001);
+  EXPECT_LT(walk.worst_rotation_deg(), 0.1);
+
+  RollingWalk blind(0.025);
+  AdjustmentOptions options;
+  options.estimate_readout = false;
+  ASSERT_TRUE(adjust_fully(blind.map, options, false, nullptr).usable);
+  EXPECT_EQ(blind.map.readout(), 0);
+  EXPECT_GT(blind.worst_rotation_deg(), 2 * walk.worst_rotation_deg());
+}
+
+TEST(FullAdjustment, FindsThatAShutterDoesNotRoll) {
+  RollingWalk walk(1e-9);  // its frames say where rows were read
+  ASSERT_TRUE(adjust_fully(walk.map, {}, false, nullptr).usable);
+  EXPECT_NEAR(walk.map.readout_estimate(), 0, 0.001);
+  EXPECT_EQ(walk.map.readout(), 0);
+}
+
+TEST(LocalAdjustment, LearnsHowTheShutterRollsStepByStep) {
+  RollingWalk walk(0.025);
+  double before = 0;
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_TRUE(adjust_locally(walk.map, walk.map.newest(), {}, nullptr).usable);
+    EXPECT_GT(walk.map.readout_estimate(), before - 0.001);
+    before = walk.map.readout_estimate();
+  }
+  EXPECT_NEAR(walk.map.readout(), 0.025, 0.002);
+}
+
 TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
   PointWorld world(32, {.noise = 0.2});
   Map map = testing::true_map(world, walk(6, 0.25));

@@ -26,11 +26,11 @@ class TrackerTest : public ::testing::Test {
   }
 
   // The frame at a place of the walk.
-  std::shared_ptr<const Frame> at(double s) { return show(world, along(s)); }
-  std::shared_ptr<const Frame> show(PointWorld& shown, const SE3& T_wc) {
+  std::shared_ptr<Frame> at(double s) { return show(world, along(s)); }
+  std::shared_ptr<Frame> show(PointWorld& shown, const SE3& T_wc) {
     return frame = shown.show(T_wc, time += kFrame);
   }
-  const TrackedFrame* track(std::shared_ptr<const Frame> next) {
+  const TrackedFrame* track(std::shared_ptr<Frame> next) {
     record = {};
     return tracker.track(std::move(next), view, record);
   }
@@ -42,7 +42,7 @@ class TrackerTest : public ::testing::Test {
   Map map{point_view()};
   std::shared_ptr<const MapView> view;
   Tracker tracker{point_view(), {}};
-  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<Frame> frame;
   FrameRecord record;
   double time = 0;
 };
@@ -59,6 +59,52 @@ TEST_F(TrackerTest, FollowsTheCameraThroughTheMap) {
     const SE3 carried = view->pose_of(tracked->reference).value() * tracked->T_rc;
     EXPECT_LT(distance(carried, tracked->T_wc), 1e-9);
   }
+}
+
+// Turns to and fro several times a second, as a hand does.
+SE3 shaken(double s) {
+  return along(s) * SE3(so3_exp({0.03 * std::sin(20 * s), 0.05 * std::sin(15 * s), 0}), {0, 0, 0});
+}
+
+// Mean error in degrees of a camera whose shutter rolls, where the map says that it does so.
+double error_of_a_rolling_camera(double assumed) {
+  PointWorld world(43, {.noise = 0.3, .readout = 0.03});
+  std::vector<SE3> poses;
+  for (int i = 0; i < 6; ++i) poses.push_back(along(0.3 * i));
+  const Map map = testing::true_map(world, poses);
+  auto view = std::make_shared<MapView>(*make_view(map, testing::keyframes_of(map)[0], 100000, 1));
+  view->readout = assumed;
+  Tracker tracker(point_view(), {});
+  const auto first = world.show(shaken(0), 0);
+  tracker.start_from(first, shaken(0), view, testing::true_points(world, map, *first));
+  double sum = 0;
+  for (int i = 1; i <= 60; ++i) {
+    const double s = kStep * i;
+    const Vector6d velocity =
+        (shaken(s - kStep / 10).inverse() * shaken(s + kStep / 10)).log() / (kFrame / 5);
+    FrameRecord record;
+    const TrackedFrame* tracked =
+        tracker.track(world.show(shaken(s), kFrame * i, velocity), view, record);
+    if (tracked == nullptr) return INFINITY;
+    sum += testing::rotation_error_deg(tracked->T_wc, shaken(s)) / 60;
+    EXPECT_EQ(tracked->frame->readout, assumed);
+  }
+  return sum;
+}
+
+TEST(Tracker, UndoesWhatARollingShutterDoesToAPicture) {
+  EXPECT_LT(error_of_a_rolling_camera(0.03), 0.6 * error_of_a_rolling_camera(0));
+}
+
+TEST_F(TrackerTest, ClaimsNoMotionAcrossAGapInTime) {
+  PointWorld rolling(41, {.readout = 0.03});  // the same points
+  const auto next = [&](double s, double seconds) {
+    return tracker.track(rolling.show(along(s), time += seconds), view, record);
+  };
+  ASSERT_NE(next(kStep, kFrame), nullptr);
+  EXPECT_GT(tracker.last().frame->velocity.norm(), 0.1);
+  ASSERT_NE(next(2 * kStep, 0.5), nullptr);
+  EXPECT_EQ(tracker.last().frame->velocity.norm(), 0);
 }
 
 TEST_F(TrackerTest, GivesKeypointsTheRightPoints) {
