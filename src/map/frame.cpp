@@ -64,7 +64,7 @@ void unroll(Frame& frame, const Pinhole& pinhole, std::span<const double> depths
     frame.features.keypoints[i].y = pixel.y();
   }
   frame.grid.build(frame.features.keypoints);
-  if (readout == 0) frame.sighted = {};
+  if (readout == 0) frame.sighted = std::vector<Eigen::Vector2f>();  // also frees its memory
 }
 
 Eigen::Vector2d drift_by_readout(const Frame& frame, std::size_t keypoint, const Pinhole& pinhole,
