@@ -23,18 +23,34 @@ struct NormalEquations {
   int used = 0;
 };
 
+// Weighted residual of one observation in σ; false where the point is not in front of the camera.
+bool residual(const PoseObservation& o, const Pinhole& K, const Eigen::Matrix3d& R_cw,
+              const Eigen::Vector3d& t_cw, Eigen::Vector3d& X_c, Eigen::Vector2d& e) {
+  X_c = R_cw * o.position + t_cw;
+  if (!(X_c.z() > kMinDepth)) return false;
+  e = (K.project(X_c) - o.pixel) / o.sigma;
+  return e.allFinite();
+}
+
 NormalEquations linearise(std::span<const PoseObservation> observations, const Pinhole& K,
                           const SE3& T_cw, const std::vector<char>& inlier, bool robust) {
   NormalEquations n;
   const Eigen::Matrix3d R = T_cw.matrix3();
   const double delta = std::sqrt(kGate);
-  Eigen::Matrix<double, 2, 6> J;
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (!inlier[i]) continue;
-    if (!observations[i].residual(K, R, T_cw.translation(), e, &J)) continue;
+    Eigen::Vector3d X;
+    Eigen::Vector2d e;
+    if (!residual(observations[i], K, R, T_cw.translation(), X, e)) continue;
     const double norm = e.norm();
     const double w = robust && norm > delta ? delta / norm : 1.0;
+    // T_wc · exp(ξ) moves the point in the camera by -ρ + [X]× ω.
+    const double zi = 1.0 / X.z(), s = 1.0 / observations[i].sigma;
+    const double fx = K.fx * zi * s, fy = K.fy * zi * s;
+    const double x = X.x() * zi, y = X.y() * zi;
+    Eigen::Matrix<double, 2, 6> J;
+    J << -fx, 0, fx * x, fx * x * X.y(), -fx * (X.z() + x * X.x()), fx * X.y(),  //
+        0, -fy, fy * y, fy * (X.z() + y * X.y()), -fy * y * X.x(), -fy * X.x();
     n.H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose(), w);
     n.g.noalias() += w * (J.transpose() * e);
     ++n.used;
@@ -65,23 +81,6 @@ void add_support(const PoseSupport& support, const SE3& T_wc, NormalEquations& n
 
 }  // namespace
 
-bool PoseObservation::residual(const Pinhole& K, const Eigen::Matrix3d& R_cw,
-                               const Eigen::Vector3d& t_cw, Eigen::Vector2d& e,
-                               Eigen::Matrix<double, 2, 6>* J) const {
-  const Eigen::Vector3d X = R_cw * position + t_cw;
-  if (!(X.z() > kMinDepth)) return false;
-  e = (K.project(X) - pixel) / sigma;
-  if (!e.allFinite()) return false;
-  if (J == nullptr) return true;
-  // T_wc · exp(ξ) moves the point in the camera by -ρ + [X]× ω.
-  const double zi = 1.0 / X.z(), s = 1.0 / sigma;
-  const double fx = K.fx * zi * s, fy = K.fy * zi * s;
-  const double x = X.x() * zi, y = X.y() * zi;
-  *J << -fx, 0, fx * x, fx * x * X.y(), -fx * (X.z() + x * X.x()), fx * X.y(),  //
-      0, -fy, fy * y, fy * (X.z() + y * X.y()), -fy * y * X.x(), -fy * X.x();
-  return true;
-}
-
 PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
                                   const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier,
                                   const PoseSupport* support) {
@@ -109,9 +108,10 @@ PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
     summary.inliers = 0;
     double sum = 0;
     for (std::size_t i = 0; i < observations.size(); ++i) {
-      Eigen::Vector2d e = Eigen::Vector2d::Zero();
-      inlier[i] =
-          observations[i].residual(pinhole, R, T_cw.translation(), e) && e.squaredNorm() < kGate;
+      Eigen::Vector3d X;
+      Eigen::Vector2d e;
+      inlier[i] = residual(observations[i], pinhole, R, T_cw.translation(), X, e) &&
+                  e.squaredNorm() < kGate;
       if (inlier[i]) {
         ++summary.inliers;
         sum += e.squaredNorm();

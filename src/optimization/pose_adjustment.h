@@ -18,11 +18,6 @@ struct PoseObservation {
   Eigen::Vector3d position;  ///< world
   Eigen::Vector2d pixel;     ///< of the ideal pinhole
   double sigma = 1;          ///< pixels
-
-  /// Projection less pixel, in σ, with its derivative by ξ of T_wc · exp(ξ); false where the point
-  /// is not in front of the camera.
-  bool residual(const Pinhole& pinhole, const Eigen::Matrix3d& R_cw, const Eigen::Vector3d& t_cw,
-                Eigen::Vector2d& e, Eigen::Matrix<double, 2, 6>* J = nullptr) const;
 };
 
 struct PoseAdjustmentSummary {
