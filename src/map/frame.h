@@ -43,6 +43,9 @@ class View {
   std::vector<double> scale_;
 };
 
+/// When a row was read (see Frame::rows): -1/2 is the beginning, 1/2 the end of the readout.
+inline double moment_of_row(std::uint8_t row) { return (row + 0.5) / 256 - 0.5; }
+
 /// One picture as tracking and mapping see it: features at undistorted pixels, with a grid to find
 /// them. Immutable once tracked, shared between tracker and map.
 struct Frame {
@@ -66,8 +69,7 @@ struct Frame {
   }
   /// Its rows were read while the camera moved.
   bool rolls() const { return !rows.empty() && !velocity.isZero(0); }
-  /// When its row was read: -1/2 is the beginning, 1/2 the end of the readout.
-  double moment(std::size_t i) const { return (rows[i] + 0.5) / 256 - 0.5; }
+  double moment(std::size_t i) const { return moment_of_row(rows[i]); }
   int octave(std::size_t i) const { return features.keypoints[i].octave; }
   /// Calls visit(index) for the keypoints in a window; see KeypointGrid::for_each.
   template <class Visit>

@@ -79,7 +79,7 @@ void Map::erase_keyframe(KeyframeId id) {
 PointId Map::add_point(const Eigen::Vector3d& position) {
   MapPoint point;
   point.position = position;
-  point.born = next_sequence_;
+  if (newest_.valid()) point.born = keyframes_[newest_].sequence;
   return points_.insert(std::move(point));
 }
 

@@ -49,7 +49,7 @@ struct MapPoint {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< mean direction camera to point, unit
   float base_distance = 0;  ///< distance at which it would show in octave 0
   std::vector<Observation> observations;
-  std::uint32_t born = 0;                ///< sequence number of the keyframe that made it
+  std::uint32_t born = 0;                ///< sequence number of the newest keyframe then
   std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
   PackedColour colour;                   ///< of the keypoint that made it
   PlaneId plane;                         ///< on which it lies, if on one

@@ -58,6 +58,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->reference_frame = map.keyframes()[reference].frame;
   view->reference_tracked = map.tracked_points(reference, 2);
   view->median_depth = map.depth_quantile(reference, 0.5);
+  view->newest = map.keyframes()[map.newest()].sequence;
   view->map_keyframes = map.keyframes().size();
   view->map_points = map.points().size();
   view->readout = map.readout();

@@ -44,6 +44,7 @@ struct MapView {
   std::vector<std::uint32_t> reference_points;    ///< a keypoint: index into points, or kNone
   int reference_tracked = 0;                      ///< points of the reference
   double median_depth = 0;                        ///< of the points that the reference sees
+  std::uint32_t newest = 0;                       ///< sequence number of the newest keyframe
   std::size_t map_keyframes = 0, map_points = 0;  ///< of the whole map
   std::vector<Point> points;                      ///< in order of ids
   std::vector<KeyframePose> keyframes;            ///< local ones, in order of ids

@@ -164,7 +164,6 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   remove_unconfirmed_planes(map_, options_.planes);  // points that were no good are gone by now
   settle_objects(map_, options_.objects);
   measure_scale_anew();
-  resect_buried_keyframes(map_, buried_);
   publish(map_.newest());
   return summary;
 }

@@ -110,7 +110,6 @@ class PairMatcher {
     map_.add_observation(id, id2_, j);
     MapPoint& p = map_.points()[id];
     p.colour = a_.frame.features.keypoints[i].colour;
-    p.born = a_.keyframe.sequence;
     map_.update_descriptor(id);
     map_.update_geometry(id);
     created.push_back(id);

@@ -1,35 +1,32 @@
 #include "cairn/system/frame_log.h"
 
+#include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
 
 namespace cairn {
+namespace {
 
-void FrameLog::add(double timestamp, KeyframeId reference, const SE3& T_rc, const SE3& T_wc) {
-  entries_.push_back({timestamp, reference, T_rc});
-  live_.push_back({timestamp, T_wc});
-}
+constexpr double kEvenMotion = 0.3;  // seconds for which a motion is taken to last
 
-Trajectory FrameLog::final_trajectory(const Map& map,
-                                      std::span<const BuriedKeyframe> buried) const {
-  const KeyframeGenealogy genealogy(map, buried);
-  std::map<double, KeyframeId> anchors;  // frames that are keyframes themselves
-  map.keyframes().for_each([&](KeyframeId id, const Keyframe& k) { anchors[k.timestamp()] = id; });
-  for (const BuriedKeyframe& b : buried) {
-    if (b.resected) anchors[b.timestamp] = b.id;
-  }
-  struct Carried {
-    double timestamp;
-    KeyframeId reference;
-    SE3 T_wc;
-  };
-  std::vector<Carried> frames;
-  for (const Entry& entry : entries_) {
-    const std::optional<SE3> T_wr = genealogy.T_wc(entry.reference);
-    if (T_wr) frames.push_back({entry.timestamp, entry.reference, *T_wr * entry.T_rc});
-  }
-  // At an anchor it shows by how much frames drifted from their reference keyframe; those in
-  // between take their share of it, in proportion to time.
+struct Carried {
+  double timestamp;
+  KeyframeId reference;
+  SE3 T_wc;
+};
+
+// A frame whose place is known, and the keyframe that it is, if it is one.
+struct Anchor {
+  SE3 T_wc;
+  KeyframeId keyframe;
+};
+
+// At an anchor it shows by how much frames drifted from their reference keyframe; those in between
+// take their share of it, in proportion to time. One entry a frame.
+Trajectory share_drift(const std::vector<Carried>& frames,
+                       const std::vector<std::optional<Anchor>>& anchors) {
   struct Drift {
     double timestamp;
     KeyframeId anchor;
@@ -41,15 +38,14 @@ Trajectory FrameLog::final_trajectory(const Map& map,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     std::optional<Drift> after;
     for (next = std::max(next, i); next < frames.size(); ++next) {
-      const auto anchor = anchors.find(frames[next].timestamp);
-      if (anchor == anchors.end()) continue;
-      const SE3 T_wa = genealogy.T_wc(anchor->second).value();
-      after = {frames[next].timestamp, anchor->second, (frames[next].T_wc.inverse() * T_wa).log()};
+      if (!anchors[next]) continue;
+      after = {frames[next].timestamp, anchors[next]->keyframe,
+               (frames[next].T_wc.inverse() * anchors[next]->T_wc).log()};
       break;
     }
     Vector6d xi = Vector6d::Zero();
-    const bool own =
-        before && before->anchor == frames[i].reference;  // carried without drift there
+    const bool own = before && before->anchor.valid() &&
+                     before->anchor == frames[i].reference;  // carried without drift there
     const Vector6d at_before = before && !own ? before->xi : Vector6d::Zero();
     if (after && (before || next == i)) {
       const double share =
@@ -67,6 +63,64 @@ Trajectory FrameLog::final_trajectory(const Map& map,
     }
   }
   return result;
+}
+
+// From the frame before to the frame after; none where they are too far apart.
+Vector6d velocity_at(const Trajectory& trajectory, std::size_t i) {
+  const auto& before = trajectory[i > 0 ? i - 1 : i];
+  const auto& after = trajectory[std::min(i + 1, trajectory.size() - 1)];
+  const double dt = after.timestamp - before.timestamp;
+  if (!(dt > 0) || dt > kEvenMotion) return Vector6d::Zero();
+  return (before.T_wc.inverse() * after.T_wc).log() / dt;
+}
+
+}  // namespace
+
+void FrameLog::add(double timestamp, KeyframeId reference, const SE3& T_rc, const SE3& T_wc,
+                   std::span<const Sighting> sightings, std::uint32_t last_birth) {
+  entries_.push_back(
+      {timestamp, reference, T_rc, seen_.append(std::as_bytes(sightings)), last_birth});
+  live_.push_back({timestamp, T_wc});
+}
+
+std::optional<SE3> FrameLog::place_in(const Map& map, const Entry& entry, const SE3& T_wc,
+                                      const Vector6d& velocity) const {
+  std::vector<Sighting> sightings(entry.sightings.bytes / sizeof(Sighting));
+  if (!seen_.read(entry.sightings, std::as_writable_bytes(std::span(sightings)))) {
+    return std::nullopt;
+  }
+  return place(map, sightings, entry.last_birth, T_wc, velocity);
+}
+
+Trajectory FrameLog::final_trajectory(const Map& map,
+                                      std::span<const BuriedKeyframe> buried) const {
+  const KeyframeGenealogy genealogy(map, buried);
+  std::map<double, KeyframeId> keyframes;
+  map.keyframes().for_each(
+      [&](KeyframeId id, const Keyframe& k) { keyframes[k.timestamp()] = id; });
+  std::vector<const Entry*> entries;
+  std::vector<Carried> frames;
+  std::vector<std::optional<Anchor>> anchors;
+  for (const Entry& entry : entries_) {
+    const std::optional<SE3> T_wr = genealogy.T_wc(entry.reference);
+    if (!T_wr) continue;
+    entries.push_back(&entry);
+    frames.push_back({entry.timestamp, entry.reference, *T_wr * entry.T_rc});
+    anchors.emplace_back();
+    const auto keyframe = keyframes.find(entry.timestamp);
+    if (keyframe == keyframes.end()) continue;
+    anchors.back() = {map.keyframes()[keyframe->second].T_wc, keyframe->second};
+  }
+  const Trajectory carried = share_drift(frames, anchors);
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+    if (anchors[i]) return;
+    const auto T_wc = place_in(map, *entries[i], carried[i].T_wc, velocity_at(carried, i));
+    if (T_wc) anchors[i] = {*T_wc, {}};
+  });
+  spdlog::debug("{} of {} frames found their place in the final map",
+                std::count_if(anchors.begin(), anchors.end(), [](const auto& a) { return !!a; }),
+                frames.size());
+  return share_drift(frames, anchors);
 }
 
 Trajectory keyframe_trajectory(const Map& map) {

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "cairn/geometry/trajectory.h"
 #include "cairn/mapping/mapper.h"
+#include "cairn/mapping/sighting.h"
+#include "cairn/system/scratch_file.h"
 
 namespace cairn {
 
-/// Every tracked frame, relative to the keyframe that carries it.
+/// Every tracked frame: where it is from the keyframe that carries it, and what it saw.
 class FrameLog {
  public:
-  /// `T_rc`: camera to the reference keyframe; `T_wc`: as known now.
-  void add(double timestamp, KeyframeId reference, const SE3& T_rc, const SE3& T_wc);
+  /// `T_rc`: camera to the reference keyframe; `T_wc`: as known now. `last_birth`: as in `place`.
+  void add(double timestamp, KeyframeId reference, const SE3& T_rc, const SE3& T_wc,
+           std::span<const Sighting> sightings = {}, std::uint32_t last_birth = 0);
 
-  /// Each frame where its keyframe, or what that was merged into, lies in the map as it is now.
+  /// Each frame where the final map says that it was: keyframes where they are, others where they
+  /// see what they saw; those that saw too little keep their place between frames that did not.
   Trajectory final_trajectory(const Map& map, std::span<const BuriedKeyframe> buried) const;
   const Trajectory& live_trajectory() const { return live_; }
 
@@ -23,9 +28,16 @@ class FrameLog {
     double timestamp;
     KeyframeId reference;
     SE3 T_rc;
+    ScratchFile::Extent sightings;
+    std::uint32_t last_birth;
   };
+
+  std::optional<SE3> place_in(const Map& map, const Entry& entry, const SE3& T_wc,
+                              const Vector6d& velocity) const;
+
   std::vector<Entry> entries_;
   Trajectory live_;
+  ScratchFile seen_;
 };
 
 /// The keyframes of a map in order of time.

@@ -77,6 +77,7 @@ struct Slam::Implementation {
                                            const PerceptionInput& input);
   bool place_by_objects(const MappingSchedule::Answer& answer,
                         const std::shared_ptr<const Frame>& frame);
+  void log_tracked();
   void hand_over_keyframe();
   void deliver(KeyframePerception seen);
   void restart();
@@ -176,7 +177,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   } else if (s.lost ? s.recover(frame, input, record) : s.track(frame, input, record)) {
     record.state = FrameState::kTracked;
     result.T_wc = s.tracker.last().T_wc;
-    s.log.add(timestamp, s.tracker.last().reference, s.tracker.last().T_rc, *result.T_wc);
+    s.log_tracked();
     if (!s.lost && s.tracker.wants_keyframe(s.mapping->idle())) {
       record.keyframe = true;
       const auto before = std::chrono::steady_clock::now();
@@ -247,6 +248,12 @@ bool Slam::Implementation::track(const std::shared_ptr<Frame>& frame, const Perc
     if (p.valid()) sighting.found.push_back(p);
   }
   return true;
+}
+
+void Slam::Implementation::log_tracked() {
+  const TrackedFrame& t = tracker.last();
+  log.add(t.frame->timestamp, t.reference, t.T_rc, t.T_wc, sightings_of(*t.frame, t.points),
+          t.last_birth);
 }
 
 void Slam::Implementation::hand_over_keyframe() {
@@ -325,7 +332,7 @@ bool Slam::Implementation::place_by_objects(const MappingSchedule::Answer& answe
                                    [&](const FrameRecord& r) { return r.timestamp == timestamp; });
   if (record == records.rend() || timestamp < gaps.back().lost) return false;
   record->state = FrameState::kTracked;
-  log.add(timestamp, tracker.last().reference, tracker.last().T_rc, tracker.last().T_wc);
+  log_tracked();
   return false;
 }
 

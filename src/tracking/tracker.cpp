@@ -48,6 +48,7 @@ void Tracker::start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
   last_.T_wc = T_wc;
   last_.reference = view->reference;
   last_.T_rc = view->pose_of(view->reference).value().inverse() * T_wc;
+  last_.last_birth = view->newest;
   last_.points = points;
   last_points_.clear();
   for (const PointId id : points)
@@ -141,6 +142,7 @@ const TrackedFrame* Tracker::track(std::shared_ptr<Frame> frame,
   last_.T_wc = T_wc;
   last_.reference = map_->reference;
   last_.T_rc = map_->pose_of(map_->reference).value().inverse() * T_wc;
+  last_.last_birth = map_->newest;
   last_.matches = record.matches;
   last_.inliers = record.inliers;
   last_points_ = current_points_;

@@ -33,6 +33,7 @@ struct TrackedFrame {
   SE3 T_wc;
   KeyframeId reference;          ///< keyframe that carries the frame
   SE3 T_rc;                      ///< camera to reference keyframe
+  std::uint32_t last_birth = 0;  ///< sequence number of the newest keyframe of the map then
   std::vector<PointId> points;   ///< one a keypoint: inliers
   std::vector<PointId> visible;  ///< points that should have been seen
   int matches = 0, inliers = 0;

@@ -60,6 +60,20 @@ TEST_F(FrameLogTest, AFrameThatIsAKeyframeIsWhereTheKeyframeIs) {
   EXPECT_LT(distance(trajectory[0].T_wc, along(0.6)), 1e-9);
 }
 
+TEST_F(FrameLogTest, AFrameIsWhereItSeesWhatItSaw) {
+  Map seen = testing::true_map(world, std::vector<SE3>{along(0), along(0.4), along(0.8)});
+  const auto frame = world.show(along(0.6), 9);
+  const auto sightings = sightings_of(*frame, testing::true_points(world, seen, *frame));
+  const SE3 T_rc = along(0.63);  // from the first keyframe, as it was thought to be
+  log.add(9, seen.first(), T_rc, T_rc, sightings, 2);
+  log.add(9.03, seen.first(), T_rc, T_rc, std::span(sightings).first(10), 2);
+  const Trajectory trajectory = log.final_trajectory(seen, {});
+  ASSERT_EQ(trajectory.size(), 2u);
+  EXPECT_LT((trajectory[0].T_wc.translation() - along(0.6).translation()).norm(), 0.004);
+  EXPECT_LT(distance(trajectory[1].T_wc, trajectory[0].T_wc), 1e-9)
+      << "what saw too little drifts as the frame before it did";
+}
+
 TEST_F(FrameLogTest, KeyframesComeInOrderOfTime) {
   map.erase_keyframe(first);
   add_keyframe(along(1), 2);

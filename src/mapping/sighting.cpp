@@ -1,0 +1,58 @@
+#include "cairn/mapping/sighting.h"
+
+#include <cmath>
+#include <limits>
+
+#include "cairn/optimization/pose_adjustment.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kMinInliers = 30;
+constexpr double kFraction = 8;  // parts of a pixel that are kept
+constexpr std::uint8_t kMiddleRow = 128;
+
+}  // namespace
+
+std::vector<Sighting> sightings_of(const Frame& frame, std::span<const PointId> points) {
+  std::vector<Sighting> sightings;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].valid()) continue;
+    const Eigen::Vector2d pixel = frame.sighted_pixel(i) * kFraction;
+    constexpr double kLimit = std::numeric_limits<std::int16_t>::max();
+    if (pixel.cwiseAbs().maxCoeff() > kLimit) continue;
+    sightings.push_back({points[i], static_cast<std::int16_t>(std::lround(pixel.x())),
+                         static_cast<std::int16_t>(std::lround(pixel.y())),
+                         frame.rows.empty() ? kMiddleRow : frame.rows[i],
+                         static_cast<std::uint8_t>(frame.octave(i))});
+  }
+  return sightings;
+}
+
+std::optional<SE3> place(const Map& map, std::span<const Sighting> sightings,
+                         std::uint32_t last_birth, const SE3& T_wc, const Vector6d& velocity) {
+  const Pinhole& pinhole = map.view().pinhole();
+  const Vector6d motion = map.readout() * velocity;
+  const SE3 T_cw = T_wc.inverse();
+  std::vector<PoseObservation> observations;
+  observations.reserve(sightings.size());
+  for (const Sighting& s : sightings) {
+    const MapPoint* point = map.points().find(s.point);
+    if (point == nullptr || point->born > last_birth) continue;
+    const Eigen::Vector3d X = T_cw * point->position;
+    if (!(X.z() > 0)) continue;
+    // The pixel that the camera would have seen if its calibration were right, and all at once.
+    const Eigen::Vector2d bend = map.lens().project(pinhole, X) - pinhole.project(X);
+    const Eigen::Vector2d sighted = Eigen::Vector2d(s.x, s.y) / kFraction;
+    const Eigen::Vector2d pixel =
+        seen_at_once(pinhole, sighted, X.z(), moment_of_row(s.row), motion) - bend;
+    observations.push_back({point->position, pixel, map.view().sigma(s.octave)});
+  }
+  SE3 placed = T_wc;
+  std::vector<char> inlier;
+  const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, placed, inlier);
+  if (!summary.usable || summary.inliers < kMinInliers) return std::nullopt;
+  return placed;
+}
+
+}  // namespace cairn
