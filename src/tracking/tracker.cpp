@@ -271,11 +271,13 @@ bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
                          static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
   }
   search_by_projection(frame, expected_, {100, 0.8}, current_points_);
-  return adjust(frame, T_wc) >= (support_ ? options_.min_supported_inliers : options_.min_inliers);
+  const int least = support_ ? options_.min_supported_inliers : options_.min_inliers;
+  return adjust(frame, T_wc, true) >= least;
 }
 
-// Motion-only adjustment of the current matches; those that do not agree are let go.
-int Tracker::adjust(const Frame& frame, SE3& T_wc) {
+// Motion-only adjustment of the current matches; those that do not agree are let go. `unroll`: from
+// where an instant shutter would have seen them, as the motion that is found says.
+int Tracker::adjust(const Frame& frame, SE3& T_wc, bool unroll) {
   observations_.clear();
   observed_keypoints_.clear();
   for (std::uint32_t i = 0; i < current_points_.size(); ++i) {
@@ -290,7 +292,7 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc) {
   };
   PoseAdjustmentSummary summary = adjust();
   // How the camera moves while its shutter rolls is known once its pose is.
-  if (summary.usable && map_->readout != 0 && !frame.rows.empty()) {
+  if (unroll && summary.usable && map_->readout != 0 && !frame.rows.empty()) {
     unroll_observations(frame, T_wc);
     summary = adjust();
   }

@@ -77,7 +77,7 @@ class Tracker {
   bool track_supported(const Frame& frame, SE3& T_wc, const std::vector<SeenPlane>& planes);
   PoseSupport support(const SE3& T_wc, double timestamp,
                       const std::vector<SeenPlane>& planes) const;
-  int adjust(const Frame& frame, SE3& T_wc);
+  int adjust(const Frame& frame, SE3& T_wc, bool unroll = false);
 
   View view_;
   TrackingOptions options_;
