@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <vector>
+
+#include "datasets/temp_folder.h"
 
 namespace cairn {
 namespace {
@@ -36,9 +37,7 @@ class ScratchFileTest : public ::testing::Test {
  protected:
   ScratchFileTest() {
     if (const char* value = std::getenv("TMPDIR")) before_ = value;
-    folder = std::filesystem::path(::testing::TempDir()) / "cairn_scratch";
-    std::filesystem::create_directories(folder);
-    ::setenv("TMPDIR", folder.c_str(), 1);
+    ::setenv("TMPDIR", folder.path().c_str(), 1);
   }
   ~ScratchFileTest() override {
     if (before_) {
@@ -46,10 +45,9 @@ class ScratchFileTest : public ::testing::Test {
     } else {
       ::unsetenv("TMPDIR");
     }
-    std::filesystem::remove_all(folder);
   }
 
-  std::filesystem::path folder;
+  TempFolder folder;
 
  private:
   std::optional<std::string> before_;
@@ -67,7 +65,7 @@ TEST_F(ScratchFileTest, GivesBackWhatItWasGiven) {
 TEST_F(ScratchFileTest, LeavesNoNameBehind) {
   ScratchFile file;
   file.append(some_bytes(100, 0));
-  EXPECT_EQ(files_in(folder), 0u);
+  EXPECT_EQ(files_in(folder.path()), 0u);
 }
 
 TEST_F(ScratchFileTest, KeepsWhatItHoldsWhenItIsMoved) {
@@ -82,7 +80,7 @@ TEST_F(ScratchFileTest, KeepsWhatItHoldsWhenItIsMoved) {
 }
 
 TEST_F(ScratchFileTest, KeepsNothingWhereThereIsNoFolder) {
-  std::filesystem::remove_all(folder);
+  std::filesystem::remove_all(folder.path());
   ScratchFile file;
   EXPECT_EQ(file.append(some_bytes(100, 0)).bytes, 0u);
   EXPECT_EQ(file.append(some_bytes(100, 0)).bytes, 0u) << "and does not ask again";
