@@ -183,8 +183,6 @@ class Map {
  private:
   void move_planes(KeyframeId from, KeyframeId to);
   void move_objects(KeyframeId from, KeyframeId to);
-  std::vector<Eigen::Vector3d> outline_of(const PlaneLandmark& landmark,
-                                          const PlaneObservation& o) const;
 
   View view_;
   LensCorrection lens_;

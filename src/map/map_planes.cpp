@@ -52,18 +52,14 @@ void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) 
 // depth: so the corners of all pictures are put onto the plane anew.
 void Map::update_outline(PlaneId id) {
   PlaneLandmark& landmark = planes_[id];
-  std::vector<std::vector<Eigen::Vector3d>> outlines = landmark.buried_outlines;
+  std::vector<std::vector<Eigen::Vector3d>> outlines;
+  for (const BuriedOutline& seen : landmark.buried_outlines)
+    outlines.push_back(outline_on(landmark.plane, seen));
+  const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
   for (const PlaneObservation& o : landmark.observations)
-    outlines.push_back(outline_of(landmark, o));
+    outlines.push_back(outline_on(landmark.plane, {T_rw * keyframes_[o.keyframe].T_wc, o.corners}));
   std::vector<Eigen::Vector3d> outline = common_outline(landmark.plane, outlines);
   if (outline.size() > 2) landmark.outline = std::move(outline);
-}
-
-// What one observation shows of a plane, in the reference's frame.
-std::vector<Eigen::Vector3d> Map::outline_of(const PlaneLandmark& landmark,
-                                             const PlaneObservation& o) const {
-  const SE3 T_rk = keyframes_[landmark.reference].T_wc.inverse() * keyframes_[o.keyframe].T_wc;
-  return transformed(moved_along_rays(o.corners, landmark.plane.transformed(T_rk.inverse())), T_rk);
 }
 
 std::vector<PointId> Map::points_in_masks(PlaneId id, bool rim) const {
@@ -109,8 +105,8 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   target.last_seen = std::max(target.last_seen, moved.last_seen);
   for (const PlaneObservation& o : moved.observations) target.add(o);
   const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
-  for (const auto& outline : moved.buried_outlines) {
-    target.buried_outlines.push_back(transformed(outline, T_rf));
+  for (const BuriedOutline& seen : moved.buried_outlines) {
+    target.buried_outlines.push_back({T_rf * seen.T_rk, seen.corners});
   }
   for (const auto& [point, votes] : moved.buried_votes) {
     MaskVotes& sum = target.buried_votes[point];
@@ -141,7 +137,8 @@ void Map::move_planes(KeyframeId from, KeyframeId to) {
     if (seen != landmark.observations.end()) {
       PlaneObservation o = std::move(*seen);
       landmark.observations.erase(seen);
-      landmark.buried_outlines.push_back(outline_of(landmark, o));
+      const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
+      landmark.buried_outlines.push_back({T_rw * keyframes_[from].T_wc, std::move(o.corners)});
       o.keyframe = to;
       o.normal = T_tf.rotation() * o.normal;
       o.centroid = T_tf * o.centroid;

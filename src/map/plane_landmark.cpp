@@ -75,6 +75,11 @@ std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>
   return moved;
 }
 
+std::vector<Eigen::Vector3d> outline_on(const Plane& plane, const BuriedOutline& seen) {
+  return transformed(moved_along_rays(seen.corners, plane.transformed(seen.T_rk.inverse())),
+                     seen.T_rk);
+}
+
 std::vector<Eigen::Vector3d> common_outline(
     const Plane& plane, const std::vector<std::vector<Eigen::Vector3d>>& outlines) {
   const Eigen::Vector3d u = plane.normal().unitOrthogonal(), v = plane.normal().cross(u);
@@ -107,7 +112,7 @@ void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& 
   landmark.reference = reference;
   landmark.plane = landmark.plane.transformed(T_nr);
   landmark.outline = transformed(std::move(landmark.outline), T_nr);
-  for (auto& outline : landmark.buried_outlines) outline = transformed(std::move(outline), T_nr);
+  for (BuriedOutline& seen : landmark.buried_outlines) seen.T_rk = T_nr * seen.T_rk;
 }
 
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,

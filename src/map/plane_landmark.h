@@ -43,6 +43,13 @@ struct MaskVotes {
   int inside = 0, rim = 0, outside = 0;
 };
 
+/// What a keyframe that is gone saw of a plane: its frame in that of the plane's reference, and
+/// corners in its frame, of which the rays tell.
+struct BuriedOutline {
+  SE3 T_rk;
+  std::vector<Eigen::Vector3d> corners;
+};
+
 /// A plane of the map, relative to the keyframe that saw it first (the paper, section III.B).
 struct PlaneLandmark {
   KeyframeId reference;
@@ -50,9 +57,9 @@ struct PlaneLandmark {
   std::map<std::string, double> votes = {};         ///< for each label: sum of scores
   std::vector<PlaneObservation> observations = {};  ///< one a keyframe, in order of arrival
   std::vector<PointId> points = {};                 ///< map points that lie on it
-  // What keyframes saw that are gone: points in masks; outlines, in the reference's frame.
+  // What keyframes saw that are gone: points in masks, outlines.
   std::map<PointId, MaskVotes> buried_votes = {};
-  std::vector<std::vector<Eigen::Vector3d>> buried_outlines = {};
+  std::vector<BuriedOutline> buried_outlines = {};
   std::vector<Eigen::Vector3d> outline = {};  ///< convex, in the reference's frame
   std::uint32_t sightings = 0;                ///< pictures that showed it, ever
   std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
@@ -89,6 +96,10 @@ std::vector<Eigen::Vector3d> transformed(std::vector<Eigen::Vector3d> corners, c
 /// rays miss it or graze it far beyond the others.
 std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>& corners,
                                               const Plane& plane);
+
+/// What a keyframe saw of a plane, on the plane; the corners in the keyframe's frame, the rest in
+/// the reference's.
+std::vector<Eigen::Vector3d> outline_on(const Plane& plane, const BuriedOutline& seen);
 
 /// The outline of a plane that many pictures show: convex, around all their outlines but for what
 /// only the widest twentieth of them shows in some direction.

@@ -243,6 +243,18 @@ TEST_F(MapPlanes, APlaneStaysWhereItIsWhenItsReferenceGoes) {
   EXPECT_EQ(broken_planes(map), "");
 }
 
+TEST_F(MapPlanes, WhatAKeyframeThatIsGoneSawLiesOnThePlaneWhereItIsNow) {
+  const PlaneId id = map.add_plane(a, wall_of(a).scaled(1.5));  // as little was known
+  map.erase_keyframe(a);
+  PlaneLandmark& landmark = map.planes()[id];
+  landmark.plane = kWall.transformed(map.keyframes()[landmark.reference].T_wc.inverse());
+  map.update_outline(id);
+  EXPECT_THAT(map.outline_in_world(id), SizeIs(4));
+  for (const Eigen::Vector3d& corner : wall_corners()) {
+    EXPECT_TRUE(has_corner(map.outline_in_world(id), corner)) << corner.transpose();
+  }
+}
+
 TEST_F(MapPlanes, APlaneGoesWithAReferenceThatHasNoNeighbour) {
   const KeyframeId lonely = map.add_keyframe(testing::frame_at({}, 9), SE3());
   const PlaneId id = map.add_plane(lonely, seen_from(SE3(), wall_corners()));
