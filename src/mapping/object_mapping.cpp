@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "cairn/geometry/ellipse_projection.h"
+#include "cairn/map/independent_pictures.h"
 #include "cairn/map/object_classes.h"
-#include "cairn/mapping/independent_pictures.h"
 #include "cairn/mapping/object_support.h"
 
 namespace cairn {

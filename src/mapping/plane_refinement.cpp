@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "cairn/map/independent_pictures.h"
 #include "cairn/map/plane_labels.h"
-#include "cairn/mapping/independent_pictures.h"
 #include "cairn/mapping/plane_evidence.h"
 
 namespace cairn {

@@ -12,7 +12,7 @@ struct FactorOptions {
 };
 
 struct PlaneFactorOptions {
-  FactorOptions predicted_depth = {.sigma = 2};     ///< times the σ that pictures show
+  FactorOptions predicted_depth = {.sigma = 1};     ///< times the σ that pictures show
   FactorOptions observation = {.sigma = 1};         ///< times the σ that detector and picture give
   FactorOptions point_on_plane = {.sigma = 0.005};  ///< as a share of the viewing distance
   FactorOptions parallel = {.sigma = 1};            ///< degrees

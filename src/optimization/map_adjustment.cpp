@@ -9,9 +9,9 @@
 #include <deque>
 #include <optional>
 
+#include "cairn/optimization/depth_blocks.h"
 #include "cairn/optimization/factors/lens_point_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
-#include "cairn/optimization/factors/predicted_depth_factor.h"
 #include "cairn/optimization/factors/rolling_point_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
 #include "cairn/optimization/object_blocks.h"
@@ -22,8 +22,7 @@
 namespace cairn {
 namespace {
 
-constexpr int kDepthsAKeyframe = 20;  // what a picture predicts errs alike all over it
-constexpr double kGate = 5.991;       // χ², 2 degrees of freedom, 95 %
+constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
 
 // How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
 // errors of a point's observations are alike, so the data are less sure than they look, and the
@@ -43,7 +42,6 @@ class Adjustment {
       : map_(map),
         full_(full),
         refine_lens_(refine_lens),
-        depth_options_(options.planes.predicted_depth),
         lens_(map.lens()),
         estimate_readout_(options.estimate_readout && !refine_lens),
         readout_(map.readout_estimate()),
@@ -51,6 +49,7 @@ class Adjustment {
                        ceres::Vector::Constant(1, full ? 0.0 : map.readout_estimate())),
         keyframes_(std::move(free)),
         points_(std::move(points)),
+        depths_(map, options.planes.predicted_depth),
         planes_(map, options.planes),
         objects_(map, options.objects) {
     free_count_ = keyframes_.size();
@@ -110,7 +109,7 @@ class Adjustment {
     for (std::size_t i = 0; i < points_.size(); ++i) move(&point_values_[3 * i]);
     planes_.scale(scale);
     objects_.scale(scale);
-    log_units_ += std::log(scale);
+    depths_.scale(scale);
   }
 
   void write_back() {
@@ -125,7 +124,7 @@ class Adjustment {
     }
     planes_.write_back(map_);
     objects_.write_back(map_);
-    if (full_ && !depth_factors_.empty()) map_.units_a_metre = std::exp(log_units_);
+    depths_.write_back(map_);
   }
 
   // Erases the observations that lie beyond the gate; to be called after write_back.
@@ -209,7 +208,7 @@ class Adjustment {
         problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
       }
     }
-    if (depth_options_.use && map_.units_a_metre > 0) add_depths();
+    if (map_.units_a_metre > 0) add_depths();
     if (!map_.planes().empty() || !map_.objects().empty()) add_landmarks();
     hold_unit();
     if (!rolling_factors_.empty()) {
@@ -228,46 +227,15 @@ class Adjustment {
     return drift_by_readout(*keyframe.frame, edge.keypoint, map_.view().pinhole(), z);
   }
 
-  // A few a keyframe, as unsure together as the one scale of the picture.
   void add_depths() {
-    log_units_ = std::log(map_.units_a_metre);
-    const auto depth_of = [&](const Edge& edge) {
-      const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
-      if (keyframe.depth.empty()) return 0.0;
-      return stretched_depth(keyframe.depth[edge.keypoint], keyframe.depth_range,
-                             map_.depth_contrast);
-    };
-    std::vector<int> known(keyframes_.size()), passed(keyframes_.size());
-    const auto assumed = [&](const Edge& edge) {
-      return map_.points()[points_[edge.point]].assumed;
-    };
-    for (const Edge& edge : observations_) {
-      known[edge.keyframe] += depth_of(edge) > 0 && !assumed(edge);
+    std::vector<DepthBlocks::Sight> sights;
+    sights.reserve(observations_.size());
+    for (const Edge& e : observations_) {
+      sights.push_back({keyframes_[e.keyframe], points_[e.point], e.keypoint,
+                        &pose_values_[std::size_t{7} * e.keyframe],
+                        &point_values_[std::size_t{3} * e.point]});
     }
-    for (const Edge& edge : observations_) {
-      const double depth = depth_of(edge);
-      if (!(depth > 0)) continue;
-      const Keyframe& keyframe = map_.keyframes()[keyframes_[edge.keyframe]];
-      const double local = std::max(keyframe.sigma_depth, 1e-3);
-      if (assumed(edge)) {  // nothing else says how far it is
-        add_depth(edge, depth, std::hypot(local, keyframe.sigma_depth_scale));
-        continue;
-      }
-      const int n = std::min(known[edge.keyframe], kDepthsAKeyframe);
-      const int i = passed[edge.keyframe]++;
-      if (i * n / known[edge.keyframe] == (i + 1) * n / known[edge.keyframe]) continue;
-      add_depth(edge, depth, std::hypot(local, std::sqrt(n) * keyframe.sigma_depth_scale));
-    }
-    if (depth_factors_.empty()) return;
-    ordering_->AddElementToGroup(&log_units_, kScaleGroup);
-    if (!full_) problem_->SetParameterBlockConstant(&log_units_);
-  }
-
-  void add_depth(const Edge& edge, double depth, double sigma) {
-    depth_factors_.emplace_back(depth, depth_options_.sigma * sigma);
-    problem_->AddResidualBlock(&depth_factors_.back(), nullptr,
-                               &pose_values_[std::size_t{7} * edge.keyframe],
-                               &point_values_[std::size_t{3} * edge.point], &log_units_);
+    depths_.add_to(*problem_, *ordering_, sights, full_);
   }
 
   // Planes first: objects stand on them.
@@ -318,8 +286,6 @@ class Adjustment {
 
   Map& map_;
   bool full_, refine_lens_;
-  FactorOptions depth_options_;
-  double log_units_ = 0;  // of the map a metre
   LensCorrection lens_;
   bool estimate_readout_;
   double readout_;
@@ -331,12 +297,12 @@ class Adjustment {
   std::vector<Edge> observations_;
   std::vector<double> pose_values_, point_values_;
   std::deque<PointFactor> factors_;
-  std::deque<PredictedDepthFactor> depth_factors_;
   std::deque<LensPointFactor> lens_factors_;
   std::deque<RollingPointFactor> rolling_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
   std::optional<PoseBlocks> poses_;
+  DepthBlocks depths_;
   PlaneBlocks planes_;
   ObjectBlocks objects_;
   ceres::HuberLoss loss_{std::sqrt(kGate)};
