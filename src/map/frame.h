@@ -80,6 +80,9 @@ struct Frame {
   }
 };
 
+/// Seconds for which a camera's motion is taken to last: what is farther off in time says nothing.
+constexpr double kEvenMotion = 0.15;
+
 /// Moves the keypoints of a frame to where a shutter that opens for all rows at once would have
 /// seen them (see seen_at_once). `depths`: one a keypoint; `readout` and `velocity`: as in Frame,
 /// which keeps them. Frames that were seen at once stay as they are.

@@ -13,7 +13,7 @@ constexpr int kStarts = 40;    // half of the points on the plane: 99.5 % of fin
 constexpr int kFewPoints = 6;  // fewer decide by themselves nothing
 // How likely a point is anywhere else, to being right on the plane. Surfaces hide what is behind
 // them: a point there is a mistake, before them only a thing.
-constexpr double kElsewhere = 0.05, kBehind = 0.008;
+constexpr double kElsewhere = 0.01, kBehind = 0.0016;
 constexpr double kOdds = 6;        // twenty to one, twice its logarithm
 constexpr double kMinSine = 0.05;  // of three points: nearer to a line they are no plane
 

@@ -1,8 +1,10 @@
 #include "cairn/mapping/sighting.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "cairn/geometry/median.h"
 #include "cairn/optimization/pose_adjustment.h"
 
 namespace cairn {
@@ -11,6 +13,23 @@ namespace {
 constexpr int kMinInliers = 30;
 constexpr double kFraction = 8;  // parts of a pixel that are kept
 constexpr std::uint8_t kMiddleRow = 128;
+// A point that the adjustment has moved far off says nothing, but near the camera it says it louder
+// than a hundred others. So what is off by so many times as much as most, and by so many σ, is left
+// out from the start.
+constexpr double kFarOff = 6, kFarOffSigma = 10;
+
+void leave_out_far_off(std::vector<PoseObservation>& observations, const Pinhole& pinhole,
+                       const SE3& T_cw) {
+  if (observations.empty()) return;
+  const auto off = [&](const PoseObservation& o) {
+    return (pinhole.project(T_cw * o.position) - o.pixel).norm() / o.sigma;
+  };
+  std::vector<double> all;
+  all.reserve(observations.size());
+  for (const PoseObservation& o : observations) all.push_back(off(o));
+  const double limit = std::max(kFarOff * median(all), kFarOffSigma);
+  std::erase_if(observations, [&](const PoseObservation& o) { return !(off(o) <= limit); });
+}
 
 }  // namespace
 
@@ -48,6 +67,7 @@ std::optional<SE3> place(const Map& map, std::span<const Sighting> sightings,
         seen_at_once(pinhole, sighted, X.z(), moment_of_row(s.row), motion) - bend;
     observations.push_back({point->position, pixel, map.view().sigma(s.octave)});
   }
+  leave_out_far_off(observations, pinhole, T_cw);
   SE3 placed = T_wc;
   std::vector<char> inlier;
   const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, placed, inlier);

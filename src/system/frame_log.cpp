@@ -9,8 +9,6 @@
 namespace cairn {
 namespace {
 
-constexpr double kEvenMotion = 0.3;  // seconds for which a motion is taken to last
-
 struct Carried {
   double timestamp;
   KeyframeId reference;
@@ -65,12 +63,15 @@ Trajectory share_drift(const std::vector<Carried>& frames,
   return result;
 }
 
-// From the frame before to the frame after; none where they are too far apart.
+// From the frame before to the frame after, as far as they are near in time; none where neither is.
 Vector6d velocity_at(const Trajectory& trajectory, std::size_t i) {
-  const auto& before = trajectory[i > 0 ? i - 1 : i];
-  const auto& after = trajectory[std::min(i + 1, trajectory.size() - 1)];
+  const double now = trajectory[i].timestamp;
+  const bool first = i == 0 || now - trajectory[i - 1].timestamp > kEvenMotion;
+  const bool last = i + 1 == trajectory.size() || trajectory[i + 1].timestamp - now > kEvenMotion;
+  const auto& before = trajectory[first ? i : i - 1];
+  const auto& after = trajectory[last ? i : i + 1];
   const double dt = after.timestamp - before.timestamp;
-  if (!(dt > 0) || dt > kEvenMotion) return Vector6d::Zero();
+  if (!(dt > 0)) return Vector6d::Zero();
   return (before.T_wc.inverse() * after.T_wc).log() / dt;
 }
 
@@ -116,6 +117,8 @@ Trajectory FrameLog::final_trajectory(const Map& map,
     if (anchors[i]) return;
     const auto T_wc = place_in(map, *entries[i], carried[i].T_wc, velocity_at(carried, i));
     if (T_wc) anchors[i] = {*T_wc, {}};
+    if (std::getenv("PL")) { const SE3 d = T_wc ? carried[i].T_wc.inverse() * *T_wc : SE3(); const auto v = velocity_at(carried, i);
+      spdlog::info("PL {:.3f} {} ref {} from carried {:.1f} mm {:.2f} deg; v {:.2f} {:.2f}; {} sightings", carried[i].timestamp, bool(T_wc), int(entries[i]->reference.slot), 1e3 * d.translation().norm(), 57.3 * d.log().tail<3>().norm(), v.head<3>().norm(), v.tail<3>().norm(), entries[i]->sightings.bytes / sizeof(Sighting)); }
   });
   spdlog::debug("{} of {} frames found their place in the final map",
                 std::count_if(anchors.begin(), anchors.end(), [](const auto& a) { return !!a; }),

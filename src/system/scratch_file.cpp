@@ -1,5 +1,6 @@
 #include "cairn/system/scratch_file.h"
 
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -63,7 +64,7 @@ void ScratchFile::open() {
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
   if (error) return give_up(error.message());
   std::string name = (folder / "cairn-XXXXXX").string();
-  descriptor_ = ::mkstemp(name.data());
+  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) return give_up(std::strerror(errno));
   ::unlink(name.c_str());  // the file lives as long as it is open
 }

@@ -28,7 +28,6 @@ constexpr PlaneAssociationOptions kLoose = {.max_angle_deg = 45, .max_offset = 0
 // What hands and vehicles do to a camera between two frames.
 constexpr double kAcceleration = 15;      // median depths a second squared
 constexpr double kTurnAcceleration = 30;  // radians a second squared
-constexpr double kEvenMotion = 0.15;      // seconds for which a motion is taken to last
 constexpr double kFrontalCosine = 0.998;
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth

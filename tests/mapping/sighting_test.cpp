@@ -69,6 +69,22 @@ TEST(Sighting, PointsThatTookTheNameOfOneThatIsGoneSayNothing) {
   EXPECT_TRUE(place(map, sightings, 7, along(0.5), Vector6d::Zero()));
 }
 
+TEST(Sighting, PointsThatWentAstrayDoNotTakeTheFrameWithThem) {
+  PointWorld world(506);
+  Map map = true_map(world, kWalk);
+  const auto frame = world.show(along(0.5), 9);
+  const auto sightings = sightings_of(*frame, true_points(world, map, *frame));
+  const Pinhole& pinhole = map.view().pinhole();
+  for (std::size_t i = 0; i < 40; ++i) {  // to where a step of the camera moves them most
+    Eigen::Vector3d& position = map.points()[sightings[i].point].position;
+    const Eigen::Vector2d pixel = pinhole.project(along(0.5).inverse() * position);
+    position = along(0.5) * (0.02 * pinhole.unproject(pixel + Eigen::Vector2d(100, 50)));
+  }
+  const auto T_wc = place(map, sightings, 2, along(0.5), Vector6d::Zero());
+  ASSERT_TRUE(T_wc);
+  EXPECT_LT(distance(*T_wc, along(0.5)), 0.002);
+}
+
 TEST(Sighting, TooFewOfThemPlaceNothing) {
   PointWorld world(505);
   const Map map = true_map(world, kWalk);
