@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kGate = 3;     // σ
-constexpr double kGap = 0.1;    // between outlines that touch, as a share of the viewing distance
+constexpr double kTouch = 0.3;  // between outlines that touch, as a share of the viewing distance
+constexpr double kGap = 0.1;    // between planes that are one, where outlines have their middles
 constexpr int kFewPoints = 10;  // fewer say little of a plane
 constexpr double kMostPoints = 0.7;     // of one plane on another, that make the two one
 constexpr double kAsGood = 0.7;         // of the points on what is seen, on what is known
@@ -150,7 +151,7 @@ const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPl
                                   const PlaneAssociationOptions& options) {
   const KnownPlane* nearest = nullptr;
   double least = 1;
-  const double margin = kGap * seen.centroid.norm();
+  const double margin = kTouch * seen.centroid.norm();
   for (const KnownPlane& plane : known) {
     const double off = disagreement(seen, plane, options);
     if (off > least) continue;
@@ -170,8 +171,8 @@ bool one_surface(const Map& map, PlaneId a, PlaneId b, double distance,
   if (angle_between(plane_a, plane_b) > options.max_angle_deg * kRadians) return false;
   const auto outline_a = map.outline_in_world(a), outline_b = map.outline_in_world(b);
   const double margin = kGap * distance;
-  if (!touch(outline_a, outline_b, plane_b.normal(), margin) &&
-      !touch(outline_b, outline_a, plane_a.normal(), margin)) {
+  if (!touch(outline_a, outline_b, plane_b.normal(), kTouch * distance) &&
+      !touch(outline_b, outline_a, plane_a.normal(), kTouch * distance)) {
     return false;
   }
   // The points say, where there are some.

@@ -36,7 +36,7 @@ class PlaneAssociation : public ::testing::Test {
   }
   // A part of the same wall that does not touch what was seen of it before.
   SeenPlane elsewhere() const {
-    return seen_from(poses[1], rectangle({2.5, -1, 4}, {1, 0, 0}, {0, 2, 0}));
+    return seen_from(poses[1], rectangle({4.5, -1, 4}, {1, 0, 0}, {0, 2, 0}));
   }
   SeenPlane same_place() const { return seen_from(poses[1], wall_corners()); }
 
