@@ -54,10 +54,10 @@ void Map::update_outline(PlaneId id) {
   PlaneLandmark& landmark = planes_[id];
   std::vector<std::vector<Eigen::Vector3d>> outlines;
   for (const BuriedOutline& seen : landmark.buried_outlines)
-    outlines.push_back(outline_on(landmark.plane, seen));
+    outlines.push_back(outline_on(landmark.plane, seen.T_rk, seen.corners));
   const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
   for (const PlaneObservation& o : landmark.observations)
-    outlines.push_back(outline_on(landmark.plane, {T_rw * keyframes_[o.keyframe].T_wc, o.corners}));
+    outlines.push_back(outline_on(landmark.plane, T_rw * keyframes_[o.keyframe].T_wc, o.corners));
   std::vector<Eigen::Vector3d> outline = common_outline(landmark.plane, outlines);
   if (outline.size() > 2) landmark.outline = std::move(outline);
 }

@@ -75,9 +75,9 @@ std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>
   return moved;
 }
 
-std::vector<Eigen::Vector3d> outline_on(const Plane& plane, const BuriedOutline& seen) {
-  return transformed(moved_along_rays(seen.corners, plane.transformed(seen.T_rk.inverse())),
-                     seen.T_rk);
+std::vector<Eigen::Vector3d> outline_on(const Plane& plane, const SE3& T_rk,
+                                        const std::vector<Eigen::Vector3d>& corners) {
+  return transformed(moved_along_rays(corners, plane.transformed(T_rk.inverse())), T_rk);
 }
 
 std::vector<Eigen::Vector3d> common_outline(

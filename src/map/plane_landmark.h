@@ -97,9 +97,10 @@ std::vector<Eigen::Vector3d> transformed(std::vector<Eigen::Vector3d> corners, c
 std::vector<Eigen::Vector3d> moved_along_rays(const std::vector<Eigen::Vector3d>& corners,
                                               const Plane& plane);
 
-/// What a keyframe saw of a plane, on the plane; the corners in the keyframe's frame, the rest in
-/// the reference's.
-std::vector<Eigen::Vector3d> outline_on(const Plane& plane, const BuriedOutline& seen);
+/// What keyframe k saw of a plane, on the plane; plane and result in the frame of its reference r,
+/// corners in that of k.
+std::vector<Eigen::Vector3d> outline_on(const Plane& plane, const SE3& T_rk,
+                                        const std::vector<Eigen::Vector3d>& corners);
 
 /// The outline of a plane that many pictures show: convex, around all their outlines but for what
 /// only the widest twentieth of them shows in some direction.

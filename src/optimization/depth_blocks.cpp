@@ -22,7 +22,6 @@ double alike(std::vector<double> times) {
 
 void DepthBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
                          std::span<const Sight> sights, bool full) {
-  if (!options_.use || !(map_.units_a_metre > 0)) return;
   full_ = full;
   log_units_ = std::log(map_.units_a_metre);
   struct Picture {
@@ -42,11 +41,12 @@ void DepthBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering&
   if (times.empty()) return;
   const double share = alike(std::move(times));
   for (const Sight& s : sights) {
-    if (!(depth_of(s) > 0)) continue;
+    const double depth = depth_of(s);
+    if (!(depth > 0)) continue;
     const Keyframe& keyframe = map_.keyframes()[s.keyframe];
     const double local = std::max(keyframe.sigma_depth, kLeastError);
     if (assumed(s)) {  // nothing else says how far it is
-      add(problem, s, share * std::hypot(local, keyframe.sigma_depth_scale));
+      add(problem, s, depth, share * std::hypot(local, keyframe.sigma_depth_scale));
       continue;
     }
     // A few a keyframe, as unsure together as the one scale of the picture.
@@ -54,7 +54,7 @@ void DepthBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering&
     const int n = std::min(picture.known, kDepthsAKeyframe);
     const int i = picture.passed++;
     if (i * n / picture.known == (i + 1) * n / picture.known) continue;
-    add(problem, s, share * std::hypot(local, std::sqrt(n) * keyframe.sigma_depth_scale));
+    add(problem, s, depth, share * std::hypot(local, std::sqrt(n) * keyframe.sigma_depth_scale));
   }
   ordering.AddElementToGroup(&log_units_, kScaleGroup);
   if (!full) problem.SetParameterBlockConstant(&log_units_);
@@ -66,8 +66,8 @@ double DepthBlocks::depth_of(const Sight& sight) const {
   return stretched_depth(keyframe.depth[sight.keypoint], keyframe.depth_range, map_.depth_contrast);
 }
 
-void DepthBlocks::add(ceres::Problem& problem, const Sight& sight, double sigma) {
-  factors_.emplace_back(depth_of(sight), options_.sigma * sigma);
+void DepthBlocks::add(ceres::Problem& problem, const Sight& sight, double depth, double sigma) {
+  factors_.emplace_back(depth, options_.sigma * sigma);
   problem.AddResidualBlock(&factors_.back(), nullptr, sight.T_wc, sight.position, &log_units_);
 }
 

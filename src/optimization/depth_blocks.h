@@ -28,8 +28,10 @@ class DepthBlocks {
 
   DepthBlocks(const Map& map, const FactorOptions& options) : map_(map), options_(options) {}
 
-  /// In the order of `sights`. Only a full adjustment finds the unit; others hold it. What it adds
-  /// to the problem is its own, and must outlive the problem's use.
+  /// Is there anything to add?
+  bool wanted() const { return options_.use && map_.units_a_metre > 0; }
+  /// Where wanted(), in the order of `sights`. Only a full adjustment finds the unit; others hold
+  /// it. What it adds to the problem is its own, and must outlive the problem's use.
   void add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
               std::span<const Sight> sights, bool full);
   /// After a change of the map's unit.
@@ -39,7 +41,7 @@ class DepthBlocks {
  private:
   double depth_of(const Sight& sight) const;
   bool assumed(const Sight& sight) const { return map_.points()[sight.point].assumed; }
-  void add(ceres::Problem& problem, const Sight& sight, double sigma);
+  void add(ceres::Problem& problem, const Sight& sight, double depth, double sigma);
 
   const Map& map_;
   FactorOptions options_;

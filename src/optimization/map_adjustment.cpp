@@ -208,7 +208,7 @@ class Adjustment {
         problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
       }
     }
-    if (map_.units_a_metre > 0) add_depths();
+    if (depths_.wanted()) add_depths();
     if (!map_.planes().empty() || !map_.objects().empty()) add_landmarks();
     hold_unit();
     if (!rolling_factors_.empty()) {

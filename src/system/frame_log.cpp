@@ -117,8 +117,6 @@ Trajectory FrameLog::final_trajectory(const Map& map,
     if (anchors[i]) return;
     const auto T_wc = place_in(map, *entries[i], carried[i].T_wc, velocity_at(carried, i));
     if (T_wc) anchors[i] = {*T_wc, {}};
-    if (std::getenv("PL")) { const SE3 d = T_wc ? carried[i].T_wc.inverse() * *T_wc : SE3(); const auto v = velocity_at(carried, i);
-      spdlog::info("PL {:.3f} {} ref {} from carried {:.1f} mm {:.2f} deg; v {:.2f} {:.2f}; {} sightings", carried[i].timestamp, bool(T_wc), int(entries[i]->reference.slot), 1e3 * d.translation().norm(), 57.3 * d.log().tail<3>().norm(), v.head<3>().norm(), v.tail<3>().norm(), entries[i]->sightings.bytes / sizeof(Sighting)); }
   });
   spdlog::debug("{} of {} frames found their place in the final map",
                 std::count_if(anchors.begin(), anchors.end(), [](const auto& a) { return !!a; }),
