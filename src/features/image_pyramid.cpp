@@ -25,4 +25,11 @@ void ImagePyramid::compute(int level) {
   cv::resize(levels_[level - 1], target, target.size(), 0, 0, cv::INTER_LINEAR);
 }
 
+ImagePyramid ImagePyramid::clone() const {
+  ImagePyramid copy;
+  for (const cv::Mat& level : levels_) copy.levels_.push_back(level.clone());
+  copy.ratios_ = ratios_;
+  return copy;
+}
+
 }  // namespace cairn

@@ -25,6 +25,12 @@ class ImagePyramid {
   cv::Point2f to_base(cv::Point2f point, int level) const {
     return {(point.x + 0.5F) * ratios_[level].x - 0.5F, (point.y + 0.5F) * ratios_[level].y - 0.5F};
   }
+  cv::Point2f from_base(cv::Point2f point, int level) const {
+    return {(point.x + 0.5F) / ratios_[level].x - 0.5F, (point.y + 0.5F) / ratios_[level].y - 0.5F};
+  }
+
+  /// A copy that shares no pixels; plain copies do.
+  ImagePyramid clone() const;
 
  private:
   std::vector<cv::Mat> levels_;

@@ -170,6 +170,8 @@ OrbExtractor::OrbExtractor(const OrbOptions& options)
     : options_(options), buffers_(std::make_unique<Buffers>()) {}
 OrbExtractor::~OrbExtractor() = default;
 
+const ImagePyramid& OrbExtractor::pyramid() const { return buffers_->pyramid; }
+
 void OrbExtractor::extract(const cv::Mat& grey, Features& features) {
   assert(grey.type() == CV_8UC1);
   buffers_->prepare(grey, options_);

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "cairn/features/features.h"
+#include "cairn/features/image_pyramid.h"
 
 namespace cairn {
 
@@ -29,6 +30,9 @@ class OrbExtractor {
   /// `grey`: CV_8UC1, at least 64x64 (smaller ones have no features). `features` is overwritten,
   /// its memory reused; keypoints come level by level, finest first.
   void extract(const cv::Mat& grey, Features& features);
+
+  /// Of the last picture; its pixels are overwritten with the next one's.
+  const ImagePyramid& pyramid() const;
 
   const OrbOptions& options() const { return options_; }
 

@@ -76,7 +76,7 @@ Eigen::Vector2d drift_by_readout(const Frame& frame, std::size_t keypoint, const
          kStep;
 }
 
-Undistorter::Undistorter(const Camera& camera) : height_(camera.height()) {
+Undistorter::Undistorter(const Camera& camera) : camera_(camera), height_(camera.height()) {
   needed_ = camera.model() == Camera::Model::kKannalaBrandt ||
             camera.distortion() != std::array<double, 5>{};
   if (!needed_) return;
@@ -91,6 +91,22 @@ Undistorter::Undistorter(const Camera& camera) : height_(camera.height()) {
       if (ok) table_.back() = p.cast<float>();
     }
   }
+}
+
+Eigen::Vector2f Undistorter::to_pinhole(const Eigen::Vector2f& pixel) const {
+  if (!needed_) return pixel;
+  const float x = pixel.x() / kTableStep, y = pixel.y() / kTableStep;
+  const int c = std::clamp(static_cast<int>(x), 0, columns_ - 2);
+  const int r = std::clamp(static_cast<int>(y), 0, rows_ - 2);
+  const float a = x - c, b = y - r;
+  const Eigen::Vector2f* row = &table_[static_cast<std::size_t>(r) * columns_ + c];
+  return (1 - b) * ((1 - a) * row[0] + a * row[1]) +
+         b * ((1 - a) * row[columns_] + a * row[columns_ + 1]);
+}
+
+Eigen::Vector2d Undistorter::to_picture(const Eigen::Vector2d& pixel) const {
+  if (!needed_) return pixel;
+  return camera_.project(camera_.pinhole().unproject(pixel));
 }
 
 void Undistorter::apply(Features& features, std::vector<std::uint8_t>* rows) const {
@@ -110,13 +126,7 @@ void Undistorter::apply(Features& features, std::vector<std::uint8_t>* rows) con
   std::size_t kept = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     Keypoint kp = features.keypoints[i];
-    const float x = kp.x / kTableStep, y = kp.y / kTableStep;
-    const int c = std::clamp(static_cast<int>(x), 0, columns_ - 2);
-    const int r = std::clamp(static_cast<int>(y), 0, rows_ - 2);
-    const float a = x - c, b = y - r;
-    const Eigen::Vector2f* row = &table_[static_cast<std::size_t>(r) * columns_ + c];
-    const Eigen::Vector2f p = (1 - b) * ((1 - a) * row[0] + a * row[1]) +
-                              b * ((1 - a) * row[columns_] + a * row[columns_ + 1]);
+    const Eigen::Vector2f p = to_pinhole({kp.x, kp.y});
     if (!p.allFinite()) continue;
     note_row(kp);
     kp.x = p.x();

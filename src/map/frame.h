@@ -33,10 +33,17 @@ class View {
   double log_scale_factor() const { return log_scale_factor_; }
   /// Size of a pixel of an octave in pixels of the full picture.
   double scale(int octave) const { return scale_[octave]; }
-  /// Standard deviation of a keypoint's position in each direction, pixels.
-  double sigma(int octave) const { return sigma_px_ * scale_[octave]; }
+  /// Standard deviation of a keypoint's position in each direction, pixels. `aligned`: it was moved
+  /// to where the picture looks as its point did before.
+  double sigma(int octave, bool aligned = false) const {
+    return sigma_px_ * (aligned ? kAlignedSigma + kAlignedSlope * scale_[octave] : scale_[octave]);
+  }
 
  private:
+  // Measured against the final maps of real and rendered sequences: a corner errs in proportion to
+  // the size of its octave's pixels, a patch nearly by as much in every octave.
+  static constexpr double kAlignedSigma = 0.3, kAlignedSlope = 0.07;
+
   Pinhole pinhole_;
   double min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;
   double log_scale_factor_ = 0, sigma_px_ = 1;
@@ -71,6 +78,12 @@ struct Frame {
   bool rolls() const { return !rows.empty() && !velocity.isZero(0); }
   double moment(std::size_t i) const { return moment_of_row(rows[i]); }
   int octave(std::size_t i) const { return features.keypoints[i].octave; }
+  /// Moves a keypoint; the grid, which is for searches by whole pixels, keeps it where it was.
+  void move(std::size_t i, const Eigen::Vector2d& by) {
+    features.keypoints[i].x += static_cast<float>(by.x());
+    features.keypoints[i].y += static_cast<float>(by.y());
+    if (!sighted.empty()) sighted[i] += by.cast<float>();
+  }
   /// Calls visit(index) for the keypoints in a window; see KeypointGrid::for_each.
   template <class Visit>
   void for_each_near(const Eigen::Vector2f& center, float radius, int min_octave, int max_octave,
@@ -102,7 +115,13 @@ class Undistorter {
   /// Frame.
   void apply(Features& features, std::vector<std::uint8_t>* rows = nullptr) const;
 
+  /// Where a pixel of the picture is to the ideal pinhole camera (not finite where it is nowhere),
+  /// and where one of the ideal pinhole camera is in the picture.
+  Eigen::Vector2f to_pinhole(const Eigen::Vector2f& pixel) const;
+  Eigen::Vector2d to_picture(const Eigen::Vector2d& pixel) const;
+
  private:
+  Camera camera_;
   bool needed_ = false;
   int height_ = 0;  // of the picture
   int columns_ = 0, rows_ = 0;

@@ -91,14 +91,15 @@ void Map::erase_point(PointId id) {
   points_.erase(id);
 }
 
-void Map::add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint) {
+void Map::add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint,
+                          PatchState patch) {
   assert(!keyframes_[keyframe].points[keypoint].valid());
   assert(keypoint_of(point, keyframe) < 0);
   keyframes_[keyframe].points[keypoint] = point;
   std::vector<Observation>& observations = points_[point].observations;
   // Doubling, as push_back does, would waste too much over thousands of points.
   if (observations.size() == observations.capacity()) observations.reserve(observations.size() + 2);
-  observations.push_back({keyframe, keypoint});
+  observations.push_back({keyframe, keypoint, patch});
 }
 
 void Map::erase_observation(PointId id, KeyframeId keyframe) {

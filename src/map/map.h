@@ -11,6 +11,7 @@
 #include "cairn/map/ids.h"
 #include "cairn/map/object_landmark.h"
 #include "cairn/map/plane_landmark.h"
+#include "cairn/map/point_patch.h"
 #include "cairn/map/slot_map.h"
 
 namespace cairn {
@@ -33,14 +34,23 @@ struct Keyframe {
   DepthRange depth_range = {};   ///< of the whole picture as predicted
   double sigma_depth = 0;        ///< of its logarithm at one keypoint
   double sigma_depth_scale = 0;  ///< of the logarithm that all its keypoints share
+  /// While it is new: points that it comes to see are aligned there.
+  std::shared_ptr<const Picture> picture = {};
 
   double timestamp() const { return frame->timestamp; }
 };
+
+/// Does a keypoint lie where the picture looks as its point did before, or where a corner was
+/// found?
+enum class PatchState : std::uint8_t { kUntried, kFound, kMissed };
 
 /// A keypoint of a keyframe that sees a map point.
 struct Observation {
   KeyframeId keyframe;
   std::uint32_t keypoint = 0;
+  PatchState patch = PatchState::kUntried;
+
+  bool aligned() const { return patch == PatchState::kFound; }
 };
 
 struct MapPoint {
@@ -49,10 +59,11 @@ struct MapPoint {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< mean direction camera to point, unit
   float base_distance = 0;  ///< distance at which it would show in octave 0
   std::vector<Observation> observations;
-  std::uint32_t born = 0;                ///< sequence number of the newest keyframe then
-  std::uint32_t visible = 1, found = 1;  ///< frames that should have seen and saw it
-  PackedColour colour;                   ///< of the keypoint that made it
-  PlaneId plane;                         ///< on which it lies, if on one
+  std::uint32_t born = 0;                   ///< sequence number of the newest keyframe then
+  std::uint32_t visible = 1, found = 1;     ///< frames that should have seen and saw it
+  PackedColour colour;                      ///< of the keypoint that made it
+  PlaneId plane;                            ///< on which it lies, if on one
+  std::shared_ptr<const PointPatch> patch;  ///< what it looked like, if a picture was at hand
   bool assumed = false;  ///< its depth is that of its plane: no two views have measured it yet
 };
 
@@ -117,7 +128,8 @@ class Map {
   void erase_point(PointId id);
   /// Both directions of the link. The keypoint must be free, the point not yet seen by the
   /// keyframe.
-  void add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint);
+  void add_observation(PointId point, KeyframeId keyframe, std::uint32_t keypoint,
+                       PatchState patch = PatchState::kUntried);
   /// Unlinks; a point that is left with fewer than two observations is erased.
   void erase_observation(PointId point, KeyframeId keyframe);
   /// `from` becomes `into`: observations move where the keyframe does not see `into` yet.

@@ -78,7 +78,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->points.reserve(ids.size());
   for (const PointId id : ids) {
     const MapPoint& p = map.points()[id];
-    view->points.push_back({id, p.position, p.normal, p.base_distance, p.descriptor});
+    view->points.push_back({id, p.position, p.normal, p.base_distance, p.descriptor, p.patch});
   }
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     view->planes.push_back({id, map.plane_in_world(id), landmark.label(), map.outline_in_world(id),

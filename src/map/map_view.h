@@ -17,6 +17,7 @@ struct MapView {
     Eigen::Vector3f normal;    ///< mean viewing direction, unit
     float base_distance = 0;   ///< distance at which it would show in octave 0
     Descriptor descriptor;
+    std::shared_ptr<const PointPatch> patch;  ///< what it looked like; none where nobody knows
   };
   struct KeyframePose {
     KeyframeId id;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cairn/features/retrieval.h"
+#include "cairn/mapping/point_alignment.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
 #include "cairn/mapping/size_scale.h"
@@ -60,10 +61,12 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
                        : KeyframeGenealogy(map_, buried_).T_wc(candidate.reference).value();
   current_ = map_.add_keyframe(candidate.frame, T_wr * candidate.T_rc);
   Keyframe& keyframe = map_.keyframes()[current_];
+  keyframe.picture = candidate.picture;
   for (std::uint32_t i = 0; i < candidate.points.size(); ++i) {
     const PointId p = candidate.points[i];
     if (!p.valid() || !map_.points().contains(p) || map_.keypoint_of(p, current_) >= 0) continue;
-    map_.add_observation(p, current_, i);
+    const bool aligned = !candidate.aligned.empty() && candidate.aligned[i] != 0;
+    map_.add_observation(p, current_, i, aligned ? PatchState::kFound : PatchState::kUntried);
     map_.update_descriptor(p);
     map_.update_geometry(p);
     if (map_.points()[p].assumed) measure(p);
@@ -73,6 +76,7 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
       map_, current_, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
   recent_.insert(recent_.end(), created.begin(), created.end());
   const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
+  align_points(map_, current_);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused", keyframe.sequence,
                 keyframe.timestamp(), map_.tracked_points(current_, 1), created.size(), fused);
   publish(current_);

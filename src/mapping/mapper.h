@@ -39,7 +39,9 @@ struct KeyframeCandidate {
   std::shared_ptr<const Frame> frame;
   KeyframeId reference;  ///< T_wc = T_w,reference · T_rc
   SE3 T_rc;
-  std::vector<PointId> points;  ///< one a keypoint
+  std::vector<PointId> points;                  ///< one a keypoint
+  std::vector<char> aligned = {};               ///< as in TrackedFrame; empty: none is
+  std::shared_ptr<const Picture> picture = {};  ///< if points are to be aligned in it
 };
 
 class Mapper {

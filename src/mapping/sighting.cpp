@@ -11,7 +11,7 @@ namespace cairn {
 namespace {
 
 constexpr int kMinInliers = 30;
-constexpr double kFraction = 8;  // parts of a pixel that are kept
+constexpr double kFraction = 16;  // parts of a pixel that are kept
 constexpr std::uint8_t kMiddleRow = 128;
 // A point that the adjustment has moved far off says nothing, but near the camera it says it louder
 // than a hundred others. So what is off by so many times as much as most, and by so many σ, is left
@@ -33,17 +33,21 @@ void leave_out_far_off(std::vector<PoseObservation>& observations, const Pinhole
 
 }  // namespace
 
-std::vector<Sighting> sightings_of(const Frame& frame, std::span<const PointId> points) {
+std::vector<Sighting> sightings_of(const Frame& frame, std::span<const PointId> points,
+                                   std::span<const char> aligned) {
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].valid()) continue;
     const Eigen::Vector2d pixel = frame.sighted_pixel(i) * kFraction;
     constexpr double kLimit = std::numeric_limits<std::int16_t>::max();
     if (pixel.cwiseAbs().maxCoeff() > kLimit) continue;
-    sightings.push_back({points[i], static_cast<std::int16_t>(std::lround(pixel.x())),
-                         static_cast<std::int16_t>(std::lround(pixel.y())),
-                         frame.rows.empty() ? kMiddleRow : frame.rows[i],
-                         static_cast<std::uint8_t>(frame.octave(i))});
+    Sighting& s = sightings.emplace_back();
+    s.point = points[i];
+    s.x = static_cast<std::int16_t>(std::lround(pixel.x()));
+    s.y = static_cast<std::int16_t>(std::lround(pixel.y()));
+    s.row = frame.rows.empty() ? kMiddleRow : frame.rows[i];
+    s.octave = static_cast<std::uint8_t>(frame.octave(i)) & 0x7f;
+    s.aligned = !aligned.empty() && aligned[i] != 0;
   }
   return sightings;
 }
@@ -65,7 +69,7 @@ std::optional<SE3> place(const Map& map, std::span<const Sighting> sightings,
     const Eigen::Vector2d sighted = Eigen::Vector2d(s.x, s.y) / kFraction;
     const Eigen::Vector2d pixel =
         seen_at_once(pinhole, sighted, X.z(), moment_of_row(s.row), motion) - bend;
-    observations.push_back({point->position, pixel, map.view().sigma(s.octave)});
+    observations.push_back({point->position, pixel, map.view().sigma(s.octave, s.aligned != 0)});
   }
   leave_out_far_off(observations, pinhole, T_cw);
   SE3 placed = T_wc;

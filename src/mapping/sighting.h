@@ -13,13 +13,16 @@ namespace cairn {
 /// its place in the final map.
 struct Sighting {
   PointId point;
-  std::int16_t x = 0, y = 0;  ///< where its row saw it (Frame::sighted_pixel), eighths of a pixel
+  std::int16_t x = 0, y = 0;  ///< where its row saw it (Frame::sighted_pixel), in 16ths of a pixel
   std::uint8_t row = 0;       ///< as in Frame; in the middle where all rows were seen at once
-  std::uint8_t octave = 0;
+  std::uint8_t octave : 7 = 0;
+  std::uint8_t aligned : 1 = 0;  ///< as in TrackedFrame
 };
 
-/// `points`: one a keypoint, invalid where it shows none.
-std::vector<Sighting> sightings_of(const Frame& frame, std::span<const PointId> points);
+/// `points`: one a keypoint, invalid where it shows none. `aligned`: as in TrackedFrame; empty:
+/// none.
+std::vector<Sighting> sightings_of(const Frame& frame, std::span<const PointId> points,
+                                   std::span<const char> aligned = {});
 
 /// Where a camera (to world) was that saw the points of the map, as they are now, there. Nothing
 /// where fewer than 30 agree.

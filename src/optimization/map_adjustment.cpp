@@ -136,7 +136,7 @@ class Adjustment {
       if (!map_.points().contains(point) || map_.keypoint_of(point, keyframe) < 0) continue;
       const Keyframe& k = map_.keyframes()[keyframe];
       const Eigen::Vector3d X = k.T_wc.inverse() * map_.points()[point].position;
-      const double sigma = map_.view().sigma(k.frame->octave(edge.keypoint));
+      const double sigma = map_.view().sigma(k.frame->octave(edge.keypoint), edge.aligned);
       const bool agrees =
           X.z() > 0 &&
           ((map_.lens().project(map_.view().pinhole(), X) - k.frame->pixel(edge.keypoint)) / sigma)
@@ -154,6 +154,7 @@ class Adjustment {
  private:
   struct Edge {
     std::uint32_t keyframe, point, keypoint;
+    bool aligned;
   };
 
   class AbortCallback : public ceres::IterationCallback {
@@ -193,7 +194,7 @@ class Adjustment {
     for (const Edge& edge : observations_) {
       const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
       const Pinhole& pinhole = map_.view().pinhole();
-      const double sigma = map_.view().sigma(frame.octave(edge.keypoint));
+      const double sigma = map_.view().sigma(frame.octave(edge.keypoint), edge.aligned);
       double* pose = &pose_values_[std::size_t{7} * edge.keyframe];
       double* point = &point_values_[std::size_t{3} * edge.point];
       if (estimate_readout_ && frame.rolls()) {
@@ -278,8 +279,8 @@ class Adjustment {
         const int keyframe =
             o.keyframe.slot < index_of_slot_.size() ? index_of_slot_[o.keyframe.slot] : -1;
         if (keyframe < 0) continue;
-        observations_.push_back(
-            {static_cast<std::uint32_t>(keyframe), static_cast<std::uint32_t>(i), o.keypoint});
+        observations_.push_back({static_cast<std::uint32_t>(keyframe),
+                                 static_cast<std::uint32_t>(i), o.keypoint, o.aligned()});
       }
     }
   }

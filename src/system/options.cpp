@@ -30,6 +30,7 @@ OptionTable::OptionTable(Options& o) {
   add("tracking.sigma_px", o.tracking.sigma_px, "pixels", {0.1, 10}, "standard deviation of a keypoint of the finest octave");
   add("tracking.min_inliers", o.tracking.min_inliers, "points", {6, 1000}, "that must agree with a pose; with fewer the camera is lost");
   add("tracking.min_prediction_inliers", o.tracking.min_prediction_inliers, "points", {4, 1000}, "of the last frame that must agree with the predicted motion");
+  add("tracking.align", o.tracking.align, "move keypoints to where the picture looks as their points did; else they stay where corners were found");
   add("tracking.search_radius", o.tracking.search_radius, "pixels", {2, 200}, "around the place that the motion predicts");
   add("tracking.keyframe_ratio", o.tracking.keyframe_ratio, "", {0.1, 1}, "a new keyframe once fewer of the last one's points are seen");
   add("tracking.max_keyframe_gap", o.tracking.max_keyframe_gap, "seconds", {0.05, 60}, "longest time without a keyframe");

@@ -240,7 +240,9 @@ bool Slam::Implementation::track(const std::shared_ptr<Frame>& frame, const Perc
   if (perception && has_planes(options.landmarks)) {
     planes_in_sight = [&] { return perception->planes_now(frame, input); };
   }
-  const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record, planes_in_sight);
+  const Picture picture{extractor.pyramid(), &undistorter};
+  const TrackedFrame* tracked = tracker.track(frame, mapping->view(), record, planes_in_sight,
+                                              options.tracking.align ? &picture : nullptr);
   if (tracked == nullptr) return false;
   if (++frames_since_keyframe > kSightingFrames) return true;
   sighting.visible.insert(sighting.visible.end(), tracked->visible.begin(), tracked->visible.end());
@@ -252,13 +254,17 @@ bool Slam::Implementation::track(const std::shared_ptr<Frame>& frame, const Perc
 
 void Slam::Implementation::log_tracked() {
   const TrackedFrame& t = tracker.last();
-  log.add(t.frame->timestamp, t.reference, t.T_rc, t.T_wc, sightings_of(*t.frame, t.points),
-          t.last_birth);
+  log.add(t.frame->timestamp, t.reference, t.T_rc, t.T_wc,
+          sightings_of(*t.frame, t.points, t.aligned), t.last_birth);
 }
 
 void Slam::Implementation::hand_over_keyframe() {
   const TrackedFrame& t = tracker.last();
-  KeyframeCandidate candidate{t.frame, t.reference, t.T_rc, t.points};
+  KeyframeCandidate candidate{t.frame, t.reference, t.T_rc, t.points, t.aligned};
+  if (options.tracking.align) {
+    candidate.picture =
+        std::make_shared<Picture>(Picture{extractor.pyramid().clone(), &undistorter});
+  }
   tracker.keyframe_made();
   mapping->insert(std::move(candidate), std::move(sighting));
   sighting = {};

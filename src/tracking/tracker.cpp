@@ -49,6 +49,7 @@ void Tracker::start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
   last_.T_rc = view->pose_of(view->reference).value().inverse() * T_wc;
   last_.last_birth = view->newest;
   last_.points = points;
+  last_.aligned.assign(points.size(), 0);
   last_points_.clear();
   for (const PointId id : points)
     last_points_.push_back(id.valid() ? view->index_of(id) : kNoPoint);
@@ -109,12 +110,13 @@ void Tracker::unroll_observations(const Frame& frame, const SE3& T_wc) {
 
 const TrackedFrame* Tracker::track(std::shared_ptr<Frame> frame,
                                    const std::shared_ptr<const MapView>& view, FrameRecord& record,
-                                   const PlanesInSight& planes_in_sight) {
+                                   const PlanesInSight& planes_in_sight, const Picture* picture) {
   Stopwatch watch;
   adopt_view(view);
   support_.reset();
   SE3 T_wc = predict(frame->timestamp);
   current_points_.clear();  // none is known yet
+  aligned_.assign(frame->size(), 0);
   unroll(*frame, T_wc);
   bool ok = track_motion(*frame, T_wc);
   if (!ok) {
@@ -122,10 +124,10 @@ const TrackedFrame* Tracker::track(std::shared_ptr<Frame> frame,
     ok = track_reference(*frame, T_wc);
   }
   record.predict_ms = watch.lap();
-  if (ok) ok = track_local_map(*frame, T_wc);
+  if (ok) ok = track_local_map(*frame, picture, T_wc);
   if (planes_in_sight && map_->units_a_metre > 0 &&
       (!ok || std::count(inlier_.begin(), inlier_.end(), 1) < options_.few_points)) {
-    ok = track_supported(*frame, T_wc, planes_in_sight()) || ok;
+    ok = track_supported(*frame, picture, T_wc, planes_in_sight()) || ok;
   }
   record.matches = static_cast<int>(observations_.size());
   record.inliers = static_cast<int>(std::count(inlier_.begin(), inlier_.end(), 1));
@@ -145,6 +147,7 @@ const TrackedFrame* Tracker::track(std::shared_ptr<Frame> frame,
   last_.matches = record.matches;
   last_.inliers = record.inliers;
   last_points_ = current_points_;
+  last_.aligned = aligned_;
   last_.points.assign(last_points_.size(), {});
   for (std::size_t i = 0; i < last_points_.size(); ++i) {
     if (last_points_[i] != kNoPoint) last_.points[i] = map_->points[last_points_[i]].id;
@@ -182,13 +185,14 @@ bool Tracker::track_motion(const Frame& frame, SE3& T_wc) {
 }
 
 // Points are few: planes that the picture shows, and the motion so far, hold the camera with them.
-bool Tracker::track_supported(const Frame& frame, SE3& T_wc, const std::vector<SeenPlane>& planes) {
+bool Tracker::track_supported(Frame& frame, const Picture* picture, SE3& T_wc,
+                              const std::vector<SeenPlane>& planes) {
   SE3 pose = predict(frame.timestamp);
   support_ = support(pose, frame.timestamp, planes);
   if (support_->planes.empty()) return false;
   // Where the motion leads nowhere, the whole map around may know more.
   if (!track_motion(frame, pose)) current_points_.assign(frame.size(), kNoPoint);
-  if (!track_local_map(frame, pose)) return false;
+  if (!track_local_map(frame, picture, pose)) return false;
   T_wc = pose;
   return true;
 }
@@ -242,7 +246,7 @@ bool Tracker::track_reference(const Frame& frame, SE3& T_wc) {
   return false;
 }
 
-bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
+bool Tracker::track_local_map(Frame& frame, const Picture* picture, SE3& T_wc) {
   const SE3 T_cw = T_wc.inverse();
   const Eigen::Vector3d camera = T_wc.translation();
   seen_.assign(map_->points.size(), 0);
@@ -270,8 +274,23 @@ bool Tracker::track_local_map(const Frame& frame, SE3& T_wc) {
                          static_cast<std::int16_t>(v.octave + 1), &p.descriptor});
   }
   search_by_projection(frame, expected_, {100, 0.8}, current_points_);
+  if (picture != nullptr) align(frame, *picture, T_cw);
   const int least = support_ ? options_.min_supported_inliers : options_.min_inliers;
   return adjust(frame, T_wc, true) >= least;
+}
+
+// Corners are found anew in each picture, to half a pixel. What a point looked like is found again
+// to a fraction of that.
+void Tracker::align(Frame& frame, const Picture& picture, const SE3& T_cw) {
+  for (std::size_t i = 0; i < current_points_.size(); ++i) {
+    if (current_points_[i] == kNoPoint) continue;
+    const MapView::Point& p = map_->points[current_points_[i]];
+    if (!p.patch) continue;
+    const Eigen::Vector2d pixel = frame.sighted_pixel(i);
+    const auto found = find_patch(*p.patch, picture, view_.pinhole(), T_cw, p.position, pixel);
+    aligned_[i] = found.has_value();
+    if (found) frame.move(i, *found - pixel);
+  }
 }
 
 // Motion-only adjustment of the current matches; those that do not agree are let go. `unroll`: from
@@ -281,8 +300,8 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc, bool unroll) {
   observed_keypoints_.clear();
   for (std::uint32_t i = 0; i < current_points_.size(); ++i) {
     if (current_points_[i] == kNoPoint) continue;
-    observations_.push_back(
-        {map_->points[current_points_[i]].position, frame.pixel(i), view_.sigma(frame.octave(i))});
+    observations_.push_back({map_->points[current_points_[i]].position, frame.pixel(i),
+                             view_.sigma(frame.octave(i), aligned_[i] != 0)});
     observed_keypoints_.push_back(i);
   }
   const auto adjust = [&] {

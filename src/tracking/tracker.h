@@ -18,6 +18,7 @@ struct TrackingOptions {
   int min_inliers = 30;   ///< points that must agree with a pose
   int min_prediction_inliers =
       12;                         ///< points of the last frame that must agree with the prediction
+  bool align = true;              ///< keypoints to where the picture looks as their points did
   double search_radius = 15;      ///< pixels around the prediction of the motion model
   int max_local_points = 4000;    ///< points of the map that a frame is compared with
   double keyframe_ratio = 0.9;    ///< a new keyframe when fewer of the reference's points are seen
@@ -35,6 +36,7 @@ struct TrackedFrame {
   SE3 T_rc;                      ///< camera to reference keyframe
   std::uint32_t last_birth = 0;  ///< sequence number of the newest keyframe of the map then
   std::vector<PointId> points;   ///< one a keypoint: inliers
+  std::vector<char> aligned;     ///< one a keypoint: lies where it looks as its point did
   std::vector<PointId> visible;  ///< points that should have been seen
   int matches = 0, inliers = 0;
 };
@@ -48,11 +50,12 @@ class Tracker {
   Tracker(const View& view, const TrackingOptions& options);
 
   /// The pose of a frame, or nothing if the map was lost. `view` is the newest there is. Moves the
-  /// frame's keypoints to where a shutter would have seen them that does not roll. Fills the stage
-  /// times of `record`.
+  /// frame's keypoints to where `picture`, if it is given, looks as their points did, and to where
+  /// a shutter would have seen them that does not roll. Fills the stage times of `record`.
   const TrackedFrame* track(std::shared_ptr<Frame> frame,
                             const std::shared_ptr<const MapView>& view, FrameRecord& record,
-                            const PlanesInSight& planes_in_sight = {});
+                            const PlanesInSight& planes_in_sight = {},
+                            const Picture* picture = nullptr);
 
   /// Tracking goes on from a frame whose pose is known (initialisation, relocalisation).
   void start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
@@ -73,8 +76,10 @@ class Tracker {
   void unroll_observations(const Frame& frame, const SE3& T_wc);
   bool track_motion(const Frame& frame, SE3& T_wc);
   bool track_reference(const Frame& frame, SE3& T_wc);
-  bool track_local_map(const Frame& frame, SE3& T_wc);
-  bool track_supported(const Frame& frame, SE3& T_wc, const std::vector<SeenPlane>& planes);
+  bool track_local_map(Frame& frame, const Picture* picture, SE3& T_wc);
+  bool track_supported(Frame& frame, const Picture* picture, SE3& T_wc,
+                       const std::vector<SeenPlane>& planes);
+  void align(Frame& frame, const Picture& picture, const SE3& T_cw);
   PoseSupport support(const SE3& T_wc, double timestamp,
                       const std::vector<SeenPlane>& planes) const;
   int adjust(const Frame& frame, SE3& T_wc, bool unroll = false);
@@ -98,6 +103,7 @@ class Tracker {
   std::vector<std::uint32_t> observed_keypoints_;
   std::vector<char> inlier_;
   std::vector<char> seen_;
+  std::vector<char> aligned_;
   std::vector<double> depths_;
 };
 

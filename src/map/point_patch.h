@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cairn/features/image_pyramid.h"
+#include "cairn/features/patch.h"
+#include "cairn/geometry/se3.h"
+#include "cairn/map/frame.h"
+
+namespace cairn {
+
+/// A picture that is at hand.
+struct Picture {
+  ImagePyramid pyramid;
+  const Undistorter* lens = nullptr;  ///< it was taken through; outlives the picture
+};
+
+/// What a point of the map looks like: a small facet that faced the camera which saw it.
+struct PointPatch {
+  Patch patch;
+  /// From a pixel of the patch to the next, along its rows and down its columns, in the world.
+  Eigen::Matrix<double, 3, 2> steps;
+};
+
+/// What a point at `position` (world) looks like in a picture that shows it at `pixel` (of the
+/// ideal pinhole camera, but where its row saw it); none where that is too near to the border.
+std::shared_ptr<const PointPatch> cut_patch(const Picture& picture, const Pinhole& pinhole,
+                                            const Eigen::Vector2d& pixel, int octave,
+                                            const SE3& T_wc, const Eigen::Vector3d& position);
+
+/// Where near `pixel` (as above) a picture, taken at about T_cw, looks as the point did.
+std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture& picture,
+                                          const Pinhole& pinhole, const SE3& T_cw,
+                                          const Eigen::Vector3d& position,
+                                          const Eigen::Vector2d& pixel);
+
+}  // namespace cairn
