@@ -10,7 +10,7 @@ constexpr int kIterations = 8;
 constexpr float kSettled = 0.03F;       // pixels of the patch
 constexpr float kLeastLikeness = 0.8F;  // correlation
 constexpr float kLeastContrast = 0.1F;  // of the patch's own
-constexpr float kLeastPivot = 1.0F;     // squared grey levels: less is noise
+constexpr float kLeastDeterminant = 1;  // of the normal equations, grey levels to the sixth
 constexpr float kHalf = (Patch::kSize - 1) / 2.0F;
 
 using Greys = Eigen::Array<float, Patch::kSize * Patch::kSize, 1>;
@@ -88,7 +88,7 @@ std::optional<Eigen::Vector2f> Patch::find(const cv::Mat& image, const Eigen::Ve
   const float power = H(2, 2);
   Eigen::Matrix3f inverse;
   bool invertible = false;
-  H.computeInverseWithCheck(inverse, invertible, kLeastPivot);
+  H.computeInverseWithCheck(inverse, invertible, kLeastDeterminant);
   if (!invertible) return std::nullopt;
 
   const Eigen::Vector2f extent = kHalf * A.cwiseAbs().rowwise().sum();
