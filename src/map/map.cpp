@@ -37,6 +37,16 @@ std::vector<double> Map::depths(KeyframeId id) const {
   return depths;
 }
 
+const Observation* MapPoint::seen_from(KeyframeId keyframe) const {
+  const auto it = std::find_if(observations.begin(), observations.end(),
+                               [&](const Observation& o) { return o.keyframe == keyframe; });
+  return it != observations.end() ? &*it : nullptr;
+}
+
+Observation* MapPoint::seen_from(KeyframeId keyframe) {
+  return const_cast<Observation*>(std::as_const(*this).seen_from(keyframe));
+}
+
 void Map::set_readout(double estimate) {
   readout_estimate_ = estimate;
   readout_ = std::abs(estimate) < kInstant ? 0 : estimate;
@@ -104,11 +114,10 @@ void Map::add_observation(PointId point, KeyframeId keyframe, std::uint32_t keyp
 
 void Map::erase_observation(PointId id, KeyframeId keyframe) {
   std::vector<Observation>& observations = points_[id].observations;
-  const auto it = std::find_if(observations.begin(), observations.end(),
-                               [&](const Observation& o) { return o.keyframe == keyframe; });
-  assert(it != observations.end());
-  keyframes_[keyframe].points[it->keypoint] = {};
-  observations.erase(it);
+  const Observation* const observation = points_[id].seen_from(keyframe);
+  assert(observation != nullptr);
+  keyframes_[keyframe].points[observation->keypoint] = {};
+  observations.erase(observations.begin() + (observation - observations.data()));
   if (observations.size() < 2) erase_point(id);
 }
 
@@ -149,10 +158,8 @@ std::vector<Eigen::Vector3d> Map::measured_points_at(
 }
 
 int Map::keypoint_of(PointId point, KeyframeId keyframe) const {
-  for (const Observation& o : points_[point].observations) {
-    if (o.keyframe == keyframe) return static_cast<int>(o.keypoint);
-  }
-  return -1;
+  const Observation* const observation = points_[point].seen_from(keyframe);
+  return observation != nullptr ? static_cast<int>(observation->keypoint) : -1;
 }
 
 void Map::update_geometry(PointId id) {

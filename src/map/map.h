@@ -65,6 +65,10 @@ struct MapPoint {
   PlaneId plane;                            ///< on which it lies, if on one
   std::shared_ptr<const PointPatch> patch;  ///< what it looked like, if a picture was at hand
   bool assumed = false;  ///< its depth is that of its plane: no two views have measured it yet
+
+  /// How a keyframe sees it; nullptr where it does not.
+  const Observation* seen_from(KeyframeId keyframe) const;
+  Observation* seen_from(KeyframeId keyframe);
 };
 
 /// Networks predict depths nearer to the mean of a picture than they are: predicted depth with the

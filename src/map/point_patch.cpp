@@ -9,20 +9,21 @@ namespace {
 
 constexpr float kReach = 2.5F;        // pixels of an octave that a corner may be off
 constexpr double kLeastSize = 0.3;    // pixels of the picture: patches that get smaller are blots
+constexpr double kLeastCosine = 0.2;  // of the angle at which a facet is seen
 constexpr double kMostStretch = 2.5;  // of a facet that is seen from aside
 
-// Pixels of the picture a pixel of the ideal pinhole camera.
-Eigen::Matrix2d bend(const Undistorter& lens, const Eigen::Vector2d& pixel) {
-  const Eigen::Vector2d at = lens.to_picture(pixel);
+// Pixels of the picture a pixel of the ideal pinhole camera, which is at `at` in the picture.
+Eigen::Matrix2d bend(const Undistorter& lens, const Eigen::Vector2d& pixel,
+                     const Eigen::Vector2d& at) {
   Eigen::Matrix2d bend;
   bend.col(0) = lens.to_picture(pixel + Eigen::Vector2d::UnitX()) - at;
   bend.col(1) = lens.to_picture(pixel + Eigen::Vector2d::UnitY()) - at;
   return bend;
 }
 
-Eigen::Vector2f in_level(const Picture& picture, const Eigen::Vector2d& pixel, int level) {
-  const Eigen::Vector2f at = picture.lens->to_picture(pixel).cast<float>();
-  const cv::Point2f p = picture.pyramid.from_base({at.x(), at.y()}, level);
+Eigen::Vector2f in_level(const ImagePyramid& pyramid, const Eigen::Vector2d& at, int level) {
+  const cv::Point2f p =
+      pyramid.from_base({static_cast<float>(at.x()), static_cast<float>(at.y())}, level);
   return {p.x, p.y};
 }
 
@@ -36,14 +37,23 @@ Eigen::DiagonalMatrix<double, 2> ratio(const Picture& picture, int level) {
 std::shared_ptr<const PointPatch> cut_patch(const Picture& picture, const Pinhole& pinhole,
                                             const Eigen::Vector2d& pixel, int octave,
                                             const SE3& T_wc, const Eigen::Vector3d& position) {
-  const auto patch = Patch::cut(picture.pyramid[octave], in_level(picture, pixel, octave));
+  const Eigen::Vector2d at = picture.lens->to_picture(pixel);
+  const auto patch = Patch::cut(picture.pyramid[octave], in_level(picture.pyramid, at, octave));
   const double z = (T_wc.inverse() * position).z();
   if (!patch || !(z > 0)) return nullptr;
-  const Eigen::Matrix2d pixels = bend(*picture.lens, pixel).inverse() * ratio(picture, octave);
+  const Eigen::Matrix2d pixels = bend(*picture.lens, pixel, at).inverse() * ratio(picture, octave);
   Eigen::Matrix<double, 3, 2> steps;
   steps << pixels.row(0) * z / pinhole.fx, pixels.row(1) * z / pinhole.fy, 0, 0;
   if (!steps.allFinite()) return nullptr;
-  return std::make_shared<PointPatch>(PointPatch{*patch, T_wc.matrix3() * steps});
+  const Eigen::Vector3d ray = position - T_wc.translation();
+  return std::make_shared<PointPatch>(PointPatch{*patch, ray, T_wc.matrix3() * steps});
+}
+
+PointPatch PointPatch::turned(const Eigen::Vector3d& normal) const {
+  const double towards = normal.dot(ray);
+  if (!(std::abs(towards) > kLeastCosine * normal.norm() * ray.norm())) return *this;
+  // Each pixel's ray meets the facet nearer to the camera or farther away.
+  return {patch, ray, steps - ray * (normal.transpose() * steps) / towards};
 }
 
 std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture& picture,
@@ -56,8 +66,9 @@ std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture
   Eigen::Matrix<double, 2, 3> projection;
   projection << pinhole.fx, 0, -pinhole.fx * x, 0, pinhole.fy, -pinhole.fy * y;
   projection /= X.z();
+  const Eigen::Vector2d at = picture.lens->to_picture(pixel);
   const Eigen::Matrix2d A =
-      bend(*picture.lens, pixel) * projection * (T_cw.matrix3() * patch.steps);
+      bend(*picture.lens, pixel, at) * projection * (T_cw.matrix3() * patch.steps);
   // In the octave that shows it at the size it had.
   const double size = std::sqrt(std::abs(A.determinant()));
   if (!(size > kLeastSize) || !(A.norm() < kMostStretch * size)) return std::nullopt;
@@ -69,7 +80,7 @@ std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture
                        0, pyramid.levels() - 1);
   const Eigen::Matrix2f A_octave = (ratio(picture, octave).inverse() * A).cast<float>();
   const auto found =
-      patch.patch.find(pyramid[octave], in_level(picture, pixel, octave), A_octave, kReach);
+      patch.patch.find(pyramid[octave], in_level(pyramid, at, octave), A_octave, kReach);
   if (!found) return std::nullopt;
   const cv::Point2f base = pyramid.to_base({found->x(), found->y()}, octave);
   const Eigen::Vector2d result = picture.lens->to_pinhole({base.x, base.y}).cast<double>();

@@ -16,15 +16,20 @@ struct Picture {
   const Undistorter* lens = nullptr;  ///< it was taken through; outlives the picture
 };
 
-/// What a point of the map looks like: a small facet that faced the camera which saw it.
+/// What a point of the map looks like: a small facet, as a camera saw it.
 struct PointPatch {
   Patch patch;
+  Eigen::Vector3d ray;  ///< along which the camera saw the point, world
   /// From a pixel of the patch to the next, along its rows and down its columns, in the world.
   Eigen::Matrix<double, 3, 2> steps;
+
+  /// The same picture on a facet that lies otherwise; as it was where that was seen from the edge.
+  PointPatch turned(const Eigen::Vector3d& normal) const;
 };
 
 /// What a point at `position` (world) looks like in a picture that shows it at `pixel` (of the
-/// ideal pinhole camera, but where its row saw it); none where that is too near to the border.
+/// ideal pinhole camera, but where its row saw it), on a facet that faces the camera; none where
+/// that is too near to the border.
 std::shared_ptr<const PointPatch> cut_patch(const Picture& picture, const Pinhole& pinhole,
                                             const Eigen::Vector2d& pixel, int octave,
                                             const SE3& T_wc, const Eigen::Vector3d& position);

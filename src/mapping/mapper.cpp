@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cairn/features/retrieval.h"
+#include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/point_alignment.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
@@ -157,8 +158,10 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort);
+  if (options_.adjustment.estimate_readout) find_motions(map_);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
+  if (fused > 0) align_points(map_, map_.newest());
   spdlog::info("full adjustment: {}; then {} points fused; readout {:.2f} ms", summary.to_string(),
                fused, 1000 * map_.readout_estimate());
   if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort);

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
+#include "cairn/mapping/surface_normals.h"
+
 namespace cairn {
 namespace {
 
-// New points are looked for in about so many of the keyframes before; a picture takes a megabyte.
-constexpr std::uint32_t kPictures = 20;
+// Points are looked for in so many of the newest keyframes; a picture takes a megabyte.
+constexpr std::size_t kPictures = 30;
+// Keyframes for which a point is new: its neighbours, and they say how its surface lies, still
+// move.
+constexpr std::uint32_t kNew = 3;
 
 void cut_new_patches(Map& map, const Keyframe& keyframe, KeyframeId id) {
   for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
@@ -24,6 +29,32 @@ void cut_new_patches(Map& map, const Keyframe& keyframe, KeyframeId id) {
   }
 }
 
+// A plane says better than the neighbours how a point's surface lies.
+void turn_patches(Map& map, const Keyframe& keyframe) {
+  const SurfaceNormals normals(map, keyframe);
+  for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
+    if (!keyframe.points[i].valid()) continue;
+    MapPoint& point = map.points()[keyframe.points[i]];
+    if (!point.patch || (!point.plane.valid() && keyframe.sequence > point.born + kNew)) continue;
+    point.patch = std::make_shared<PointPatch>(point.patch->turned(
+        point.plane.valid() ? map.plane_in_world(point.plane).normal() : normals.at(i)));
+  }
+}
+
+// Of all but the newest keyframes.
+void let_pictures_go(Map& map) {
+  std::vector<std::uint32_t> with_picture;
+  map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
+    if (k.picture) with_picture.push_back(k.sequence);
+  });
+  if (with_picture.size() <= kPictures) return;
+  const auto oldest = with_picture.end() - kPictures;
+  std::nth_element(with_picture.begin(), oldest, with_picture.end());
+  map.keyframes().for_each([&](KeyframeId, Keyframe& k) {
+    if (k.sequence < *oldest) k.picture = nullptr;
+  });
+}
+
 // Trackers may look at the frame: what moves is a copy of it.
 void align_keypoints(Map& map, Keyframe& keyframe, KeyframeId id) {
   const SE3 T_cw = keyframe.T_wc.inverse();
@@ -32,8 +63,7 @@ void align_keypoints(Map& map, Keyframe& keyframe, KeyframeId id) {
     if (!keyframe.points[i].valid()) continue;
     MapPoint& point = map.points()[keyframe.points[i]];
     if (!point.patch) continue;
-    const auto observation = std::find_if(point.observations.begin(), point.observations.end(),
-                                          [&](const Observation& o) { return o.keyframe == id; });
+    Observation* const observation = point.seen_from(id);
     if (observation->patch != PatchState::kUntried) continue;
     const Eigen::Vector2d pixel = keyframe.frame->sighted_pixel(i);
     const auto found = find_patch(*point.patch, *keyframe.picture, map.view().pinhole(), T_cw,
@@ -52,8 +82,9 @@ void align_points(Map& map, KeyframeId newest) {
   const Keyframe& keyframe = map.keyframes()[newest];
   if (!keyframe.picture) return;
   cut_new_patches(map, keyframe, newest);
+  turn_patches(map, keyframe);
+  let_pictures_go(map);
   map.keyframes().for_each([&](KeyframeId id, Keyframe& k) {
-    if (k.sequence + kPictures <= keyframe.sequence) k.picture = nullptr;
     if (k.picture) align_keypoints(map, k, id);
   });
 }

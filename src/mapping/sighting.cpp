@@ -59,6 +59,7 @@ std::optional<SE3> place(const Map& map, std::span<const Sighting> sightings,
   const SE3 T_cw = T_wc.inverse();
   std::vector<PoseObservation> observations;
   observations.reserve(sightings.size());
+  std::vector<double> depths;
   for (const Sighting& s : sightings) {
     const MapPoint* point = map.points().find(s.point);
     if (point == nullptr || point->born > last_birth) continue;
@@ -69,12 +70,18 @@ std::optional<SE3> place(const Map& map, std::span<const Sighting> sightings,
     const Eigen::Vector2d sighted = Eigen::Vector2d(s.x, s.y) / kFraction;
     const Eigen::Vector2d pixel =
         seen_at_once(pinhole, sighted, X.z(), moment_of_row(s.row), motion) - bend;
-    observations.push_back({point->position, pixel, map.view().sigma(s.octave, s.aligned != 0)});
+    observations.push_back(
+        {point->position, pixel, map.view().sigma(s.octave, s.aligned != 0), moment_of_row(s.row)});
+    depths.push_back(X.z());
   }
   leave_out_far_off(observations, pinhole, T_cw);
   SE3 placed = T_wc;
   std::vector<char> inlier;
-  const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, placed, inlier);
+  ShutterMotion shutter;
+  const bool rolls = !motion.isZero(0) && !depths.empty();
+  if (rolls) shutter = expected_motion(map.readout(), velocity, median(depths));
+  const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, placed, inlier, nullptr,
+                                                    rolls ? &shutter : nullptr);
   if (!summary.usable || summary.inliers < kMinInliers) return std::nullopt;
   return placed;
 }

@@ -16,8 +16,9 @@ namespace cairn {
 /// A known point seen at a pixel.
 struct PoseObservation {
   Eigen::Vector3d position;  ///< world
-  Eigen::Vector2d pixel;     ///< of the ideal pinhole
+  Eigen::Vector2d pixel;     ///< of the ideal pinhole, where an instant shutter sees it
   double sigma = 1;          ///< pixels
+  double moment = 0;         ///< when its row was read (see seen_at_once)
 };
 
 struct PoseAdjustmentSummary {
@@ -38,13 +39,24 @@ struct PoseSupport {
   PosePrior prior;
 };
 
+/// How the camera moves while a rolling shutter reads its rows (see seen_at_once).
+struct ShutterMotion {
+  Vector6d motion = Vector6d::Zero();  ///< what is expected, which the pixels are for; then found
+  Vector6d sigma = Vector6d::Ones();   ///< of what is expected
+};
+
+/// What to expect of a camera that moves at `velocity` (tangent vector a second) from frame to
+/// frame, at `depth` from what it sees. While one picture is read, a hand moves otherwise.
+ShutterMotion expected_motion(double readout, const Vector6d& velocity, double depth);
+
 /// Motion-only adjustment: the camera pose alone, from points held fixed. Gauss-Newton on se(3)
 /// with Huber weights, in rounds; after each round observations beyond the 95 % gate of their χ²
 /// (5.99 at 2 degrees of freedom) are set aside, and come back if they agree later.
 /// `T_wc` is start and result; `inlier` gets one entry an observation. With `support` even a pose
-/// that no point agrees with is usable.
+/// that no point agrees with is usable. With `shutter` the motion is estimated, too.
 PoseAdjustmentSummary adjust_pose(std::span<const PoseObservation> observations,
                                   const Pinhole& pinhole, SE3& T_wc, std::vector<char>& inlier,
-                                  const PoseSupport* support = nullptr);
+                                  const PoseSupport* support = nullptr,
+                                  ShutterMotion* shutter = nullptr);
 
 }  // namespace cairn

@@ -45,6 +45,28 @@ TEST(PointPatch, IsNotLookedForBehindTheCameraFromAfarOrFromAside) {
   EXPECT_FALSE(looked_for_from(SE3(so3_exp({0, 1.45, 0}), kPoint - Eigen::Vector3d(1.99, 0, 0.2))));
 }
 
+// The wall is seen at half a right angle, then from straight ahead.
+TEST(PointPatch, IsFoundFromTheOtherSideWhereItsFacetLiesAsTheSurfaceDoes) {
+  const PaintedWall wall;
+  const auto from_aside = [](double yaw) {
+    const SE3 turn(so3_exp({0, yaw, 0}), Eigen::Vector3d::Zero());
+    return SE3(turn.rotation(), kPoint - turn * Eigen::Vector3d(0, 0, 1.8));
+  };
+  const SE3 seen = from_aside(0.8), from = from_aside(0);
+  const auto facing =
+      cut_patch(wall.show(seen), wall.pinhole(), wall.pixel(seen, kPoint), 0, seen, kPoint);
+  ASSERT_TRUE(facing);
+  const Eigen::Vector2d truth = wall.pixel(from, kPoint);
+  const auto off = [&](const PointPatch& patch) {
+    const auto found = find_patch(patch, wall.show(from), wall.pinhole(), from.inverse(), kPoint,
+                                  truth + Eigen::Vector2d(0.5, 0.4));
+    return found ? (*found - truth).norm() : 10;
+  };
+  EXPECT_LT(off(facing->turned(Eigen::Vector3d::UnitZ())), 0.12);
+  EXPECT_GT(off(*facing), 0.25);
+  EXPECT_EQ(facing->turned(Eigen::Vector3d::UnitY()).steps, facing->steps);  // nearly an edge
+}
+
 TEST(PointPatch, IsNotCutAtTheBorder) {
   const PaintedWall wall;
   EXPECT_FALSE(cut_patch(wall.show(SE3()), wall.pinhole(), {-30, 118}, 0, SE3(), kPoint));

@@ -46,6 +46,18 @@ TEST(Sighting, RowsAreTakenForTheMomentAtWhichTheyWereRead) {
   EXPECT_GT(error(0), 2 * error(0.025));
 }
 
+TEST(Sighting, TheCameraMayHaveMovedOtherwiseWhileItsRowsWereRead) {
+  PointWorld world(507, {.noise = 0.1, .readout = 0.025});
+  Map map = true_map(world, kWalk);
+  map.set_readout(0.025);
+  const Vector6d velocity = (Vector6d() << 0.4, 0.2, 0.1, 0.3, -0.5, 0.4).finished();
+  const auto frame = world.show(along(0.5), 9, velocity + Vector6d::Constant(0.1));
+  const auto sightings = sightings_of(*frame, true_points(world, map, *frame));
+  const auto T_wc = place(map, sightings, 2, along(0.5) * kOff, velocity);
+  ASSERT_TRUE(T_wc);
+  EXPECT_LT(rotation_error_deg(*T_wc, along(0.5)), 0.01);
+}
+
 TEST(Sighting, TheLensIsTakenForWhatTheMapFoundItToBe) {
   PointWorld world(503);
   Map map = true_map(world, kWalk);

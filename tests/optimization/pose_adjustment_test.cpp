@@ -115,6 +115,35 @@ TEST(PoseAdjustment, ManyPointsAreStrongerThanAWrongExpectation) {
   EXPECT_LT((T_wc.inverse() * sights.T_wc).log().norm(), 0.002);
 }
 
+// While its rows are read, the camera moves otherwise than it does from frame to frame.
+TEST(PoseAdjustment, FindsTheMotionOfARollingShutterWithThePose) {
+  constexpr double kReadout = 0.025;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed + 200);
+    Sights sights = make_sights(seed, 300, 0.2, 0.1);
+    const Vector6d velocity = random.motion(0.4, 0.4).log();
+    const Vector6d tremor = 0.1 * random.motion(1, 1).log().normalized();
+    for (PoseObservation& o : sights.observations) {
+      o.moment = o.pixel.y() / 480 - 0.5;
+      const Eigen::Vector3d X = sights.T_wc.inverse() * o.position;
+      o.pixel += kCamera.project(SE3::exp(-o.moment * kReadout * tremor) * X) - kCamera.project(X);
+    }
+    SE3 T_wc = sights.T_wc * Random(seed + 100).motion(0.03, 0.05);
+    SE3 without = T_wc;
+    std::vector<char> inlier;
+    ShutterMotion shutter = expected_motion(kReadout, velocity, 5);
+    ASSERT_TRUE(adjust_pose(sights.observations, kCamera, T_wc, inlier, nullptr, &shutter).usable);
+    ASSERT_TRUE(adjust_pose(sights.observations, kCamera, without, inlier).usable);
+    const auto turned = [&](const SE3& pose) {
+      return (pose.inverse() * sights.T_wc).log().tail<3>().norm();
+    };
+    EXPECT_LT(turned(T_wc), 0.0012) << seed;
+    EXPECT_GT(turned(without) + 0.0003, turned(T_wc)) << seed;
+    const Vector6d truth = kReadout * (velocity + tremor);
+    EXPECT_LT((shutter.motion - truth).tail<3>().norm(), 0.4 * kReadout * tremor.norm()) << seed;
+  }
+}
+
 TEST(PoseAdjustment, MarksOutliersAndIsNotMovedByThem) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Sights sights = make_sights(seed, 200, 0.5, 0.3);
