@@ -7,8 +7,9 @@
 namespace cairn {
 namespace {
 
-constexpr int kMaxDistance = 50;  // Hamming
-constexpr double kGate = 5.991;   // χ², 2 degrees of freedom, 95 %
+constexpr int kMaxDistance = 50;       // Hamming
+constexpr double kGate = 5.991;        // χ², 2 degrees of freedom, 95 %
+constexpr double kAstray = 4 * kGate;  // of what saw a point, should it be elsewhere
 constexpr int kSecondNeighbours = 5;
 
 // The keypoint of the keyframe that shows the point best, or -1.
@@ -23,6 +24,41 @@ int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, c
                         best.offer(i, hamming(point.descriptor, frame.features.descriptors[i]));
                       });
   return best.distance <= kMaxDistance ? static_cast<int>(best.index) : -1;
+}
+
+// Those of a point's observations that could not be of one at another place.
+std::vector<Observation> astray(const Map& map, PointId id, const Eigen::Vector3d& position) {
+  std::vector<Observation> result;
+  for (const Observation& o : map.points()[id].observations) {
+    const Keyframe& keyframe = map.keyframes()[o.keyframe];
+    const Eigen::Vector3d X = keyframe.T_wc.inverse() * position;
+    const double sigma = map.view().sigma(keyframe.frame->octave(o.keypoint));
+    const bool agrees =
+        X.z() > 0 &&
+        (map.view().pinhole().project(X) - keyframe.frame->pixel(o.keypoint)).squaredNorm() <
+            kAstray * sigma * sigma;
+    if (!agrees) result.push_back(o);
+  }
+  return result;
+}
+
+// Two points that look alike and meet at one keypoint are one if the rest of what saw them says so,
+// too: on patterns that repeat, neighbours meet. Returns whether they were.
+bool merge_if_one(Map& map, PointId from, PointId into) {
+  const MapPoint& a = map.points()[from];
+  const MapPoint& b = map.points()[into];
+  const bool elsewhere = b.assumed && !a.assumed;  // where the one is that was measured
+  const PointId moved = elsewhere ? into : from;
+  const std::vector<Observation> wrong = astray(map, moved, elsewhere ? a.position : b.position);
+  if (2 * wrong.size() > map.points()[moved].observations.size()) return false;
+  map.merge_points(from, into);
+  for (const Observation& o : wrong) {
+    if (map.keypoint_of(into, o.keyframe) == static_cast<int>(o.keypoint)) {
+      map.erase_observation(into, o.keyframe);
+    }
+  }
+  map.update_geometry(into);
+  return true;
 }
 
 }  // namespace
@@ -43,12 +79,11 @@ int fuse_into(Map& map, KeyframeId id, std::span<const PointId> points, double r
     if (!other.valid()) {
       map.add_observation(p, id, static_cast<std::uint32_t>(keypoint));
       map.update_descriptor(p);
-    } else if (map.points()[other].observations.size() > point.observations.size()) {
-      map.merge_points(p, other);
+      ++fused;
     } else {
-      map.merge_points(other, p);
+      const bool newer = map.points()[other].observations.size() > point.observations.size();
+      fused += newer ? merge_if_one(map, p, other) : merge_if_one(map, other, p);
     }
-    ++fused;
   }
   return fused;
 }

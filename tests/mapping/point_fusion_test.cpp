@@ -97,6 +97,68 @@ TEST_F(PointFusionTest, LeavesPointsAloneThatAreFarFromTheKeypointThatLooksLikeT
   EXPECT_LE(linked, static_cast<int>(strayed.size()) / 50);
 }
 
+// One point of the map as two that meet in the newest keyframe: one that the first two keyframes
+// saw, and one of all others, `shift` nearer to the newest keyframe (share of the distance).
+struct Twins {
+  PointId older, newer;
+};
+Twins twins_of(Map& map, PointId id, double shift) {
+  const auto seen = map.points()[id].observations;
+  const Eigen::Vector3d X = map.points()[id].position;
+  const Eigen::Vector3d camera = map.keyframes()[map.newest()].T_wc.translation();
+  const Twins twins{id, map.add_point(X + shift * (camera - X))};
+  for (std::size_t i = 2; i < seen.size(); ++i) {
+    map.erase_observation(id, seen[i].keyframe);
+    map.add_observation(twins.newer, seen[i].keyframe, seen[i].keypoint);
+  }
+  for (const PointId p : {twins.older, twins.newer}) {
+    map.update_descriptor(p);
+    map.update_geometry(p);
+  }
+  return twins;
+}
+
+std::vector<PointId> seen_by_all(const Map& map) {
+  std::vector<PointId> points;
+  map.points().for_each([&](PointId id, const MapPoint& p) {
+    if (p.observations.size() == map.keyframes().size()) points.push_back(id);
+  });
+  return points;
+}
+
+TEST_F(PointFusionTest, PointsThatMeetInOneKeyframeAloneStayTwo) {
+  int pairs = 0, merged = 0;
+  for (const PointId id : seen_by_all(map)) {
+    const Twins twins = twins_of(map, id, 0.4);
+    ++pairs;
+    fuse_into(map, map.newest(), {{twins.older}}, 3);
+    merged += !map.points().contains(twins.older);
+  }
+  ASSERT_GT(pairs, 50);
+  EXPECT_EQ(merged, 0);
+  EXPECT_EQ(broken_links(map), "");
+}
+
+TEST_F(PointFusionTest, WhatSawAPointElsewhereIsLeftOutOfTheMerger) {
+  const PointId id = seen_by_all(map).front();
+  const Twins twins = twins_of(map, id, 0);
+  const Observation moved = map.points()[id].observations[1];
+  Keyframe& keyframe = map.keyframes()[moved.keyframe];
+  std::uint32_t elsewhere = 0;  // a keypoint of nobody, far off
+  while (keyframe.points[elsewhere].valid() ||
+         (keyframe.frame->pixel(elsewhere) - keyframe.frame->pixel(moved.keypoint)).norm() < 50) {
+    ASSERT_LT(++elsewhere, keyframe.points.size());
+  }
+  keyframe.points[moved.keypoint] = {};
+  keyframe.points[elsewhere] = id;
+  map.points()[id].observations[1].keypoint = elsewhere;
+  ASSERT_EQ(fuse_into(map, map.newest(), {{id}}, 3), 1);
+  EXPECT_FALSE(map.points().contains(id));
+  EXPECT_GE(map.keypoint_of(twins.newer, map.first()), 0) << "the other one is as good as before";
+  EXPECT_EQ(map.keypoint_of(twins.newer, moved.keyframe), -1);
+  EXPECT_EQ(broken_links(map), "");
+}
+
 TEST_F(PointFusionTest, PointsThatAreGoneAreIgnored) {
   const PointId gone = map.add_point({0, 0, 5});
   map.erase_point(gone);
