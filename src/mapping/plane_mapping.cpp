@@ -124,7 +124,14 @@ void update_evidence(Map& map, const PlaneMappingOptions& options) {
   });
 }
 
-// A relation begins where the angle is within two σ of it, and ends beyond three.
+// What no picture shows together may be turned against each other by what drifted in between.
+bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b) {
+  return std::any_of(a.observations.begin(), a.observations.end(),
+                     [&](const PlaneObservation& o) { return b.seen_by(o.keyframe); });
+}
+
+// A relation begins where the angle is within two σ of it, and ends beyond three; where only drift
+// stands between two upright planes, within what buildings leave no doubt about.
 void relate_planes(Map& map, const PlaneMappingOptions& options) {
   struct Sure {
     PlaneId id;
@@ -143,6 +150,8 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
     for (std::size_t k = i + 1; k < planes.size(); ++k) {
       const double cosine = std::min(std::abs(planes[i].normal.dot(planes[k].normal)), 1.0);
       const double sigma = std::hypot(planes[i].sigma, planes[k].sigma);
+      const bool drifted = is_upright(planes[i].label) && is_upright(planes[k].label) &&
+                           !seen_together(map.planes()[planes[i].id], map.planes()[planes[k].id]);
       const auto implied = implied_relation(planes[i].label, planes[k].label);
       for (const auto relation : {PlaneRelation::kParallel, PlaneRelation::kPerpendicular}) {
         const double off =
@@ -151,8 +160,9 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
           return r.a == planes[i].id && r.b == planes[k].id && r.relation == relation;
         });
         if (implied && *implied != relation) continue;
-        const double gate =
-            implied ? kMaxImplied : std::min((held ? 3 : 2) * sigma, kMaxRelationAngle);
+        const double gate = implied   ? kMaxImplied
+                            : drifted ? kMaxRelationAngle
+                                      : std::min((held ? 3 : 2) * sigma, kMaxRelationAngle);
         if (off < gate) {
           map.relations().push_back({planes[i].id, planes[k].id, relation});
           break;

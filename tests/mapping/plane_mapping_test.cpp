@@ -168,6 +168,31 @@ TEST_F(MapPlanesOfPictures, LabelsBindWhatDriftHasTurned) {
   }
 }
 
+// 8 degrees from square: what one picture shows is so, what none shows together may have drifted.
+TEST_F(MapPlanesOfPictures, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrift) {
+  const auto side = rectangle({0.8, -1, 2.6}, {0, 1.4, 0}, {0.17, 0, 1.2});
+  auto all = grid_on(wall_corners(), 6);
+  const auto on_side = grid_on(side, 6);
+  all.insert(all.end(), on_side.begin(), on_side.end());
+  options.manhattan = true;
+  for (const bool together : {true, false}) {
+    map = map_of(all, few_poses(14));
+    bool first = true;
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(all.size(), 1);  // looked at
+      KeyframePerception seen = perceive(map, id, {wall_corners(), side}, 36, 1, 0.01);
+      for (SeenPlane& plane : seen.planes) plane.label = "wall";
+      if (!together) seen.planes.erase(seen.planes.begin() + (first ? 1 : 0));
+      first = !first;
+      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+    }
+    ASSERT_THAT(planes_of(map), SizeIs(2));
+    ASSERT_THAT(map.relations(), SizeIs(together ? 0 : 1));
+    if (together) continue;
+    EXPECT_EQ(map.relations()[0].relation, PlaneRelation::kPerpendicular);
+  }
+}
+
 // What 0.3 units are from far away says nothing of shelves that are near.
 TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
   const KeyframeId id = map.first();
