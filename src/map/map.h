@@ -94,6 +94,11 @@ class Map {
   const View& view() const { return view_; }
   /// Units of the map a metre of the plane detector; 0 while nothing is known of it.
   double units_a_metre = 0;
+  /// Units of the map a metre as the sizes of things say, 0 while they say nothing; only where the
+  /// detector's metre is not to be trusted.
+  std::optional<double> units_a_metre_by_sizes;
+  /// Of the two the one to say how large things are.
+  double units_a_true_metre() const { return units_a_metre_by_sizes.value_or(units_a_metre); }
   /// By how much predicted depths are to be stretched (see stretched_depth).
   double depth_contrast = 1;
   /// As far as planes or the way that the camera is held say it.

@@ -21,6 +21,8 @@ constexpr int kMinInitialPoints = 50;
 constexpr double kMinFoundRatio = 0.25;  // of the frames that should see a point
 constexpr double kUnknownScale = 0.1;    // of a picture, relative
 constexpr double kLeastSpread = 0.02;    // of predicted scales
+// Sigma of its logarithm: a metre that may be twice as long says nothing of the size of things.
+constexpr double kTrusted = 0.7;
 constexpr std::uint32_t kProbation = 3;  // keyframes
 
 }  // namespace
@@ -135,6 +137,11 @@ void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
 void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
   if (seen.objects.empty() && map_.objects().empty()) return;
   map_.up = find_up(map_);
+  map_.units_a_metre_by_sizes.reset();
+  if (scale_.sigma() > kTrusted) {
+    const ScaleEstimate sizes = scale_from_sizes(map_);
+    map_.units_a_metre_by_sizes = sizes.known() ? 1 / sizes.value : 0;
+  }
   map_objects(map_, keyframe, seen, options_.objects, object_refusals_);
   // Where no picture has said what a metre is, things do.
   if (scale_.picture_scale() > 0) return;

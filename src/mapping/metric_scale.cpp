@@ -52,11 +52,17 @@ void MetricScale::add(double time, const PictureScale& picture, double sigma) {
   if (!std::isfinite(picture.scale) || !(picture.scale > 0)) return;
   const auto later = std::upper_bound(pictures_.begin(), pictures_.end(), time,
                                       [](double t, const Picture& p) { return t < p.time; });
-  pictures_.insert(later, {time, picture});
-  sigma_ = std::max(sigma_, sigma);
+  pictures_.insert(later, {time, picture, sigma});
   if (!(sigma > 0) || !std::isfinite(picture.variance + picture.covariance)) return;
   variance_ += picture.variance;
   covariance_ += picture.covariance;
+}
+
+// A label that is wrong in one picture does not make all of them unsure.
+double MetricScale::sigma() const {
+  std::vector<double> sigmas;
+  for (const Picture& p : pictures_) sigmas.push_back(p.sigma);
+  return sigmas.empty() ? 0 : median(sigmas);
 }
 
 double MetricScale::contrast() const {
@@ -105,9 +111,10 @@ ScaleEstimate MetricScale::estimate() const {
   double independent = 0;
   for (const WeightedValue& v : values) independent += v.weight;
   ScaleEstimate estimate;
-  estimate.how = sigma_ > 0 ? "predicted depth" : "measured depth";
+  const double of_scene = sigma();
+  estimate.how = of_scene > 0 ? "predicted depth" : "measured depth";
   estimate.value = 1 / picture_scale();
-  estimate.sigma = std::hypot(sigma_, spread_of(values) / std::sqrt(independent));
+  estimate.sigma = std::hypot(of_scene, spread_of(values) / std::sqrt(independent));
   estimate.pictures = static_cast<int>(pictures_.size());
   return estimate;
 }

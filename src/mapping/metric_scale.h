@@ -48,8 +48,8 @@ class MetricScale {
   double picture_scale() const;
   /// How far pictures differ from one another: σ of the logarithm. A guess while they are few.
   double spread() const;
-  /// The largest that came with a picture.
-  double sigma() const { return sigma_; }
+  /// The median of those that came with pictures; 0 without any.
+  double sigma() const;
   /// Metres. Its σ: that of the detector in a scene, which no number of pictures makes smaller, and
   /// the spread of the pictures over the root of the number of independent ones.
   ScaleEstimate estimate() const;
@@ -61,12 +61,12 @@ class MetricScale {
   struct Picture {
     double time;
     PictureScale scale;
+    double sigma;
   };
   // With the contrast of now, logarithms of map units a metre, and how much each is worth in
   // independent pictures.
   std::vector<WeightedValue> scales() const;
 
-  double sigma_ = 0;
   std::vector<Picture> pictures_;  // in order of time
   double variance_, covariance_;   // of depths in the map and in predictions
 };

@@ -47,10 +47,10 @@ std::vector<double> depths_in(const Map& map, const Keyframe& keyframe, const Se
 double depth_of(const Map& map, const Keyframe& keyframe, const SeenObject& seen) {
   std::vector<double> depths = depths_in(map, keyframe, seen, false);
   if (depths.size() >= kFewPoints) return median(depths);
-  if (map.units_a_metre > 0) {
+  if (map.units_a_true_metre() > 0) {
     depths = depths_in(map, keyframe, seen, true);
     if (depths.size() >= kFewPoints) return median(depths);
-    const double size = usual_size(seen.class_name) * map.units_a_metre;
+    const double size = usual_size(seen.class_name) * map.units_a_true_metre();
     const double pixels = std::sqrt(seen.box.width() * seen.box.height()) / 2;
     const bool whole = std::none_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
     if (size > 0 && whole) return size * map.view().pinhole().fx / pixels;
@@ -110,7 +110,7 @@ BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
     const SE3 T_cr = map.camera_of(o).inverse() * T_wr;
     views.push_back({T_cr, o.box, o.cut, o.sigma, worth * o.score});
   }
-  const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_metre);
+  const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_true_metre());
   const BoxFit free{fit_object(landmark.ellipsoid, views, map.view().pinhole(), prior), false};
   const ObjectClass* known = find_object_class(landmark.class_name());
   if (!map.up || known == nullptr) return free;
@@ -153,7 +153,7 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   }
   const double sigma_size = std::sqrt(fit.covariance.bottomRightCorner<3, 3>().sum()) / 3;
   if (!(sigma_size < options.max_sigma_size)) return "size unsure";
-  const double usual = usual_size(landmark.class_name()) * map.units_a_metre;
+  const double usual = usual_size(landmark.class_name()) * map.units_a_true_metre();
   if (usual > 0) {
     const double off = std::log(std::cbrt(fit.ellipsoid.semi_axes.prod()) / usual);
     const double sigma = std::hypot(find_object_class(landmark.class_name())->sigma, 0.3);

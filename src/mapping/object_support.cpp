@@ -52,7 +52,7 @@ bool over(const Surface& surface, const Eigen::Vector3d& x) {
 }  // namespace
 
 void find_supports(Map& map, double max_gap) {
-  if (!(map.units_a_metre > 0)) return;
+  if (!(map.units_a_true_metre() > 0)) return;
   const std::vector<Surface> all = surfaces(map);
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     const PlaneId before = std::exchange(landmark.support, PlaneId{});
@@ -62,7 +62,7 @@ void find_supports(Map& map, double max_gap) {
     for (const Surface& surface : all) {
       const Eigen::Vector3d n = surface.plane.normal();
       const double height = surface.plane.signed_distance(ellipsoid.centre());
-      const double gap = std::abs(height - reach(ellipsoid, n)) / map.units_a_metre;
+      const double gap = std::abs(height - reach(ellipsoid, n)) / map.units_a_true_metre();
       const double most = (surface.id == before ? 2 : 1) * max_gap;
       if (height <= 0 || gap > most || gap >= least || !over(surface, ellipsoid.centre())) continue;
       least = gap;

@@ -57,7 +57,7 @@ void ObjectBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering
   for (Entry& entry : objects_) {
     add_observations(entry);
     add_prior(entry);
-    if (options_.support.use && map_.units_a_metre > 0) add_support(entry, planes);
+    if (options_.support.use && map_.units_a_true_metre() > 0) add_support(entry, planes);
   }
 }
 
@@ -98,7 +98,7 @@ void ObjectBlocks::add_prior(Entry& entry) {
   const ObjectLandmark& landmark = map_.objects()[entry.id];
   const ObjectClass* known = find_object_class(landmark.class_name());
   const bool paper = options_.size.form == FactorForm::kPaper;
-  ObjectPrior prior = prior_of(landmark.class_name(), map_.units_a_metre);
+  ObjectPrior prior = prior_of(landmark.class_name(), map_.units_a_true_metre());
   prior.turn = landmark.ellipsoid.T.rotation();
   if (landmark.upright && known != nullptr && map_.up) {
     const SE3& T_wr = map_.keyframes()[landmark.reference].T_wc;
@@ -130,7 +130,7 @@ void ObjectBlocks::add_support(Entry& entry, PlaneBlocks& planes) {
   if (frames == SupportFrames::kTwo) {
     blocks = {poses_->at(plane_reference), plane, poses_->at(reference), entry.values.data()};
   }
-  const double sigma = options_.support.sigma * map_.units_a_metre;
+  const double sigma = options_.support.sigma * map_.units_a_true_metre();
   add(std::make_unique<SupportFactor>(options_.support.form, frames, side, sigma),
       support_loss_.get(), blocks);
 }

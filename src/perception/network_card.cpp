@@ -78,6 +78,7 @@ void read_planar(CardReader& card, NetworkCard& network) {
 void read_calibration(CardReader card, NetworkCard& network) {
   network.factor = card.number("factor", 1e-3, 1e3);
   network.factor_sigma = card.number("sigma", 1e-3, 2);
+  network.outdoor_sigma = card.number("outdoor_sigma", 1e-3, 10, 0);
   card.refuse_unknown();
 }
 

@@ -47,6 +47,7 @@ struct NetworkCard {
   Axes axes = Axes::kCamera;
   double factor = 1;                ///< metres = output * unit * factor
   double factor_sigma = 0.3;        ///< of the logarithm of a picture's true factor around `factor`
+  double outdoor_sigma = 0;         ///< the same outdoors; 0: no other
   std::vector<std::string> labels;  ///< by channel, or by class
   std::vector<std::string> planar;  ///< those of `labels` whose regions may be planes
   ObjectHead head;

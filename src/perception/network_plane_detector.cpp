@@ -90,7 +90,7 @@ DetectedFrame NetworkPlaneDetector::detect(const PerceptionInput& input) {
   }
   frame.planes = planes_of_maps(maps, networks_.planar_labels(), rays_, input.bgr, options_);
   frame.depth = maps.depth;
-  frame.sigma_scale = networks_.scale_sigma();
+  frame.sigma_scale = maps.sigma_scale;
   return frame;
 }
 

@@ -1,6 +1,8 @@
 #include "cairn/perception/scene_network.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "cairn/geometry/error.h"
 
@@ -8,6 +10,17 @@ namespace cairn {
 namespace {
 
 constexpr float kLeastDepth = 1e-3f;  // metres; below, a network says that it does not know
+
+constexpr std::array<std::string_view, 11> kIndoors = {"floor", "ceiling", "bed",     "cabinet",
+                                                       "table", "curtain", "chair",   "sofa",
+                                                       "shelf", "rug",     "armchair"};
+constexpr std::array<std::string_view, 10> kOutdoors = {
+    "sky", "road", "sidewalk", "car", "tree", "grass", "earth", "mountain", "sea", "field"};
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& labels, const std::string& label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
 
 cv::Mat_<float> depth_of(const Network& network, const cv::Mat& output, const cv::Size& picture,
                          const cv::Size& grid) {
@@ -63,6 +76,9 @@ SceneNetwork::SceneNetwork(const std::vector<NetworkCard>& cards) {
       const bool planar =
           std::find(card.planar.begin(), card.planar.end(), label) != card.planar.end();
       planar_labels_.push_back(planar ? label : "");
+      places_.push_back(is_one_of(kIndoors, label)    ? Place::kIndoors
+                        : is_one_of(kOutdoors, label) ? Place::kOutdoors
+                                                      : Place::kAnywhere);
     }
   }
 }
@@ -74,20 +90,29 @@ Network* SceneNetwork::find(NetworkCard::Kind kind) const {
   return nullptr;
 }
 
-double SceneNetwork::scale_sigma() const {
-  const Network* depth = find(NetworkCard::Kind::kDepth);
-  return depth != nullptr ? depth->card().factor_sigma : 0;
+// By what most pixels show that is of one kind of place only.
+bool SceneNetwork::outdoors(const cv::Mat_<uchar>& labels) const {
+  int sum = 0;
+  for (const uchar label : labels) {
+    sum += (places_[label] == Place::kOutdoors) - (places_[label] == Place::kIndoors);
+  }
+  return sum > 0;
 }
 
 SceneMaps SceneNetwork::look(const cv::Mat& bgr, const cv::Size& grid) {
   SceneMaps maps;
   for (const auto& network : networks_) {
     const NetworkAnswer answer = network->run(bgr);
-    if (!answer.problem.empty()) return {{}, {}, {}, network->card().name + ": " + answer.problem};
+    if (!answer.problem.empty()) {
+      SceneMaps none;
+      none.problem = network->card().name + ": " + answer.problem;
+      return none;
+    }
     const cv::Mat& output = answer.outputs[0];
     switch (network->card().kind) {
       case NetworkCard::Kind::kDepth:
         maps.depth = depth_of(*network, output, bgr.size(), grid);
+        maps.sigma_scale = network->card().factor_sigma;
         break;
       case NetworkCard::Kind::kNormals:
         maps.normals = normals_of(*network, output, bgr.size(), grid);
@@ -99,6 +124,10 @@ SceneMaps SceneNetwork::look(const cv::Mat& bgr, const cv::Size& grid) {
       case NetworkCard::Kind::kObjects:
         break;  // refused by the constructor
     }
+  }
+  if (const Network* depth = find(NetworkCard::Kind::kDepth);
+      depth != nullptr && depth->card().outdoor_sigma > 0 && outdoors(maps.labels)) {
+    maps.sigma_scale = depth->card().outdoor_sigma;
   }
   return maps;
 }

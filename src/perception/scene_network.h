@@ -15,6 +15,7 @@ struct SceneMaps {
   cv::Mat_<cv::Vec3f> normals;  ///< camera frame, unit, towards the camera, 0 unknown; may be empty
   cv::Mat_<uchar> labels;       ///< index into SceneNetwork::planar_labels(); may be empty
   std::string problem;          ///< why all are empty
+  double sigma_scale = 0;       ///< of the logarithm of the true scale of the depth; 0 without
 };
 
 /// Depth, normals and labels of pictures, each from a network of its own.
@@ -31,14 +32,16 @@ class SceneNetwork {
   /// By index in SceneMaps::labels: the names of those whose regions may be planes, "" for others;
   /// empty without a network of labels.
   const std::vector<std::string>& planar_labels() const { return planar_labels_; }
-  /// Of the logarithm of the true scale of a picture's depth; 0 without a network of depth.
-  double scale_sigma() const;
 
  private:
+  enum class Place { kAnywhere, kIndoors, kOutdoors };  // where there is what a label names
+
+  bool outdoors(const cv::Mat_<uchar>& labels) const;
   Network* find(NetworkCard::Kind kind) const;
 
   std::vector<std::unique_ptr<Network>> networks_;
   std::vector<std::string> planar_labels_;
+  std::vector<Place> places_;  // by index in SceneMaps::labels
 };
 
 }  // namespace cairn

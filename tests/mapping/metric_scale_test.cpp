@@ -33,6 +33,14 @@ TEST(MetricScale, IsTheMeanOfThePicturesThatAgree) {
   EXPECT_EQ(scale.estimate().pictures, 5);
 }
 
+TEST(MetricScale, IsAsUnsureAsMostOfItsPictures) {
+  MetricScale scale;
+  EXPECT_EQ(scale.sigma(), 0);
+  double time = 0;
+  for (const double sigma : {0.2, 2.5, 0.2, 0.2}) scale.add(time += 10, picture(1), sigma);
+  EXPECT_EQ(scale.sigma(), 0.2);
+}
+
 TEST(MetricScale, ManyPicturesInASecondSayHardlyMoreThanOne) {
   MetricScale scale;
   for (int i = 0; i <= 30; ++i) scale.add(i / 30.0, picture(1), 0.1);

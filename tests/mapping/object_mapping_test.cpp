@@ -158,6 +158,22 @@ TEST_F(MapObjectsOfPictures, SizesOfThingsSayWhatAMetreIs) {
   EXPECT_NEAR(std::log(scale.value), 0, 2 * scale.sigma) << "a cup of about usual size, in metres";
 }
 
+TEST_F(MapObjectsOfPictures, WhereThePicturesMetreIsNotTrustedThingsAreFoundWithoutIt) {
+  film(12, 50);
+  map.units_a_metre = 12;
+  show_cup_everywhere();
+  settle_objects(map, options);
+  EXPECT_FALSE(scale_from_sizes(map).known()) << "no cup is that small";
+  film(12, 50);
+  map.units_a_metre = 12;
+  map.units_a_metre_by_sizes = 0;
+  show_cup_everywhere();
+  settle_objects(map, options);
+  const ScaleEstimate scale = scale_from_sizes(map);
+  ASSERT_TRUE(scale.known());
+  EXPECT_NEAR(std::log(scale.value), 0, 2 * scale.sigma);
+}
+
 TEST(ScaleOfTwoSources, IsTheSurerMeanWhereTheyAgreeAndTheSurerOneWhereNot) {
   const ScaleEstimate depth{"predicted depth", 1.0, 0.2, 9, {}};
   const ScaleEstimate sizes{"object sizes", 1.2, 0.1, 4, {}};

@@ -47,8 +47,9 @@ TEST(SceneNetwork, FeedsTheColoursAsTheCardSays) {
     SceneNetwork scene(
         {card_of(folder, begin + "unit: 0.01\ncalibration: {factor: 2, sigma: 0.1}\n" +
                              "input: {width: 32, height: 24, " + input + "}\n")});
-    EXPECT_EQ(scene.scale_sigma(), 0.1);
-    return scene.look(plain({3, 2, 1}), kGrid).depth(12, 16);
+    const SceneMaps maps = scene.look(plain({3, 2, 1}), kGrid);
+    EXPECT_EQ(maps.sigma_scale, 0.1);
+    return maps.depth(12, 16);
   };
   EXPECT_NEAR(depth("channels: rgb"), 0.02 * (1000 + 1 + 20 + 300), 1e-3);
   EXPECT_NEAR(depth("channels: bgr"), 0.02 * (1000 + 3 + 20 + 100), 1e-3);
@@ -94,6 +95,30 @@ TEST(SceneNetwork, GivesLabelsAndNormals) {
   EXPECT_EQ(maps.labels(12, 28), 2);
   EXPECT_LT(cv::norm(maps.normals(5, 5) - cv::Vec3f(0, -0.8f, 0.6f)), 1e-5);
   EXPECT_THROW(SceneNetwork({labels, labels}), Error);
+}
+
+TEST(SceneNetwork, TrustsAMetreThatWasLearntIndoorsLessOutdoors) {
+  const NetworkFolder folder;
+  TinyOnnx(24, 32).maps("depth", {0, 0, 0}, {1}).write(folder.path() / "depth.onnx");
+  TinyOnnx(24, 32)
+      .maps("logits", {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0})
+      .write(folder.path() / "tiny.onnx");
+  const NetworkCard labels =
+      card_of(folder, "name: l\nkind: labels\nfile: tiny.onnx\noutput: logits\n" + kTinyInput +
+                          "labels: [floor, wall, road]\nplanar: [floor, wall, road]\n");
+  const auto sigma = [&](const std::string& calibration, const cv::Scalar& half) {
+    SceneNetwork scene({card_of(folder, "name: d\nkind: depth\nfile: depth.onnx\noutput: depth\n" +
+                                            kTinyInput + "unit: 1\n" + calibration),
+                        labels});
+    cv::Mat picture = plain({0, 200, 0});  // a wall: anywhere
+    picture.colRange(0, 40) = half;
+    return scene.look(picture, kGrid).sigma_scale;
+  };
+  const cv::Scalar floor(0, 0, 200), road(200, 0, 0);
+  const std::string both = "calibration: {factor: 1, sigma: 0.2, outdoor_sigma: 2.5}\n";
+  EXPECT_EQ(sigma(both, floor), 0.2);
+  EXPECT_EQ(sigma(both, road), 2.5);
+  EXPECT_EQ(sigma("calibration: {factor: 1, sigma: 0.2}\n", road), 0.2);
 }
 
 TEST(SceneNetwork, RefusesNetworksThatCannotBeUsed) {
