@@ -1,5 +1,6 @@
 #include "cairn/geometry/two_view.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -19,6 +20,8 @@ using Model = TwoViewResult::Model;
 
 constexpr double kPointGate = 5.99;  // chi-square, 95 %, two degrees of freedom
 constexpr double kDegree = M_PI / 180;
+constexpr int kSearchSteps = 10;
+constexpr double kSure = 6;  // by so much a motion costs less than any other, in squared sigmas
 
 // What the matches say about one motion.
 struct Votes {
@@ -26,6 +29,7 @@ struct Votes {
   std::vector<char> triangulated, agreeing;
   int triangulated_count = 0, agreeing_count = 0;
   double parallax = 0;  // radians
+  double cost = 0;      // squared errors in sigmas, none above the gate: of all matches
 };
 
 struct Hypothesis {
@@ -90,6 +94,8 @@ Votes collect_votes(const Problem& problem, const SE3& T_21) {
     const bool agrees = (far || p.in_front()) && X1.z() > 0 && X2.z() > 0 &&
                         squared_error(X1, x1, problem.px) < kPointGate &&
                         squared_error(X2, x2, problem.px) < kPointGate;
+    votes.cost += agrees ? squared_error(X1, x1, problem.px) + squared_error(X2, x2, problem.px)
+                         : 2 * kPointGate;
     if (!agrees) continue;
     votes.agreeing[i] = 1;
     ++votes.agreeing_count;
@@ -136,6 +142,39 @@ bool same_motion(const SE3& a, const SE3& b) {
          a.translation().dot(b.translation()) > std::cos(10.0 * kDegree);
 }
 
+// The rotation that takes the directions of the first view to those of the second (Kabsch).
+Eigen::Quaterniond mean_rotation(const Problem& problem, std::span<const char> agreeing) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < problem.matches.size(); ++i) {
+    if (!agreeing[i]) continue;
+    const NormalizedMatch& m = problem.matches[i];
+    sum +=
+        m.tail<2>().homogeneous().normalized() * m.head<2>().homogeneous().normalized().transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d turn = svd.matrixU();
+  turn.col(2) *= (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return Eigen::Quaterniond(turn * svd.matrixV().transpose());
+}
+
+// Where depths differ little, a motion to the side with a turn looks like one ahead. Of the other
+// motions that a search from the six directions finds, the one that explains the matches best.
+Hypothesis best_other(const Problem& problem, const Hypothesis& best) {
+  const Eigen::Quaterniond R = mean_rotation(problem, best.votes.agreeing);
+  Hypothesis other;
+  other.votes.cost = HUGE_VAL;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const SE3 motion = refine_motion(SE3(R, sign * Vector3d::Unit(axis)), problem.matches,
+                                       best.votes.agreeing, problem.px, kSearchSteps);
+      if (same_motion(motion, best.T_21)) continue;
+      Votes votes = collect_votes(problem, motion);
+      if (votes.cost < other.votes.cost) other = {best.model, motion, std::move(votes)};
+    }
+  }
+  return other;
+}
+
 template <typename... Values>
 std::string sentence(const char* format, Values... values) {
   char text[200];
@@ -143,7 +182,8 @@ std::string sentence(const char* format, Values... values) {
   return text;
 }
 
-std::string why_not(const Problem& problem, const Votes& best, int rival, std::size_t matches) {
+std::string why_not(const Problem& problem, const Votes& best, int rival, double other,
+                    std::size_t matches) {
   const TwoViewOptions& options = problem.options;
   if (best.agreeing_count < options.min_points) {
     return sentence("only %d of %zu matches agree with one motion; %d are needed",
@@ -161,6 +201,7 @@ std::string why_not(const Problem& problem, const Votes& best, int rival, std::s
     return sentence("two motions explain the matches about equally well (%d and %d points)",
                     best.triangulated_count, rival);
   }
+  if (other < best.cost + kSure) return "two motions explain the matches about equally well";
   return {};
 }
 
@@ -198,7 +239,9 @@ TwoViewResult reconstruct_two_views(std::span<const Vector2d> pixels1,
   Hypothesis polished{best.model, refined, collect_votes(problem, refined)};
   if (!best.better_than(polished)) best = std::move(polished);
 
-  result.refusal = why_not(problem, best.votes, rival, pixels1.size());
+  Hypothesis other = best_other(problem, best);
+  if (other.votes.cost < best.votes.cost) std::swap(best, other);
+  result.refusal = why_not(problem, best.votes, rival, other.votes.cost, pixels1.size());
   result.usable = result.refusal.empty();
   result.model = best.model;
   result.T_21 = best.T_21;

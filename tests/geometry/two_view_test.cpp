@@ -168,6 +168,20 @@ TEST(TwoView, IsNeverWrongOnAPlaneEvenWhereItRefuses) {
   EXPECT_GE(usable, 3);
 }
 
+// Where depths differ little, noise makes a motion to the side, with a turn, of one ahead.
+TEST(TwoView, HardlyEverTakesASmallMotionAheadForOneToTheSide) {
+  const SE3 T_21(so3_exp({0.002, 0.004, 0}), Eigen::Vector3d(0, 0, -0.25));
+  int right = 0, wrong = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Scene scene = SceneBuilder(seed).depths(5, 5.5).noise(1).motion(T_21).count(170).build();
+    const TwoViewResult result = reconstruct(scene, seed);
+    if (!result.usable) continue;
+    ++(direction_error_deg(result.T_21, T_21) > 20 ? wrong : right);
+  }
+  EXPECT_LE(wrong, 1);
+  EXPECT_GE(right, 30);
+}
+
 TEST(TwoView, RefusesARotationForItsParallax) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const SE3 T_21(so3_exp({0.02, -0.1, 0.03}), Eigen::Vector3d::Zero());
