@@ -82,7 +82,7 @@ Votes collect_votes(const Problem& problem, const SE3& T_21) {
   std::vector<double> parallaxes;
   parallaxes.reserve(n);
   const Eigen::Matrix3d R = T_21.matrix3();
-  const Vector3d t = T_21.translation();
+  const Vector3d& t = T_21.translation();
   const double min_parallax = problem.options.min_point_parallax_deg * kDegree;
   for (std::size_t i = 0; i < n; ++i) {
     const Vector2d x1 = problem.matches[i].head<2>(), x2 = problem.matches[i].tail<2>();

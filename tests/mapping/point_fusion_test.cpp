@@ -17,6 +17,7 @@ class PointFusionTest : public ::testing::Test {
  protected:
   PointFusionTest() {
     std::vector<SE3> poses;
+    poses.reserve(6);
     for (int i = 0; i < 6; ++i) poses.push_back(along(0.15 * i));
     map = testing::true_map(world, poses);
     truth = map.points().size();
