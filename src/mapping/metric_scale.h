@@ -48,7 +48,7 @@ class MetricScale {
   double picture_scale() const;
   /// How far pictures differ from one another: σ of the logarithm. A guess while they are few.
   double spread() const;
-  /// The median of those that came with pictures; 0 without any.
+  /// Of those that came with pictures the largest, but for the last quarter; 0 without any.
   double sigma() const;
   /// Metres. Its σ: that of the detector in a scene, which no number of pictures makes smaller, and
   /// the spread of the pictures over the root of the number of independent ones.

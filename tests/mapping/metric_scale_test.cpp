@@ -33,7 +33,7 @@ TEST(MetricScale, IsTheMeanOfThePicturesThatAgree) {
   EXPECT_EQ(scale.estimate().pictures, 5);
 }
 
-TEST(MetricScale, IsAsUnsureAsMostOfItsPictures) {
+TEST(MetricScale, IsNoLessSureForOnePictureInFour) {
   MetricScale scale;
   EXPECT_EQ(scale.sigma(), 0);
   double time = 0;
