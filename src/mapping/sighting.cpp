@@ -80,8 +80,8 @@ std::optional<SE3> place(const Map& map, std::span<const Sighting> sightings,
   ShutterMotion shutter;
   const bool rolls = !motion.isZero(0) && !depths.empty();
   if (rolls) shutter = expected_motion(map.readout(), velocity, median(depths));
-  const PoseAdjustmentSummary summary = adjust_pose(observations, pinhole, placed, inlier, nullptr,
-                                                    rolls ? &shutter : nullptr);
+  const PoseAdjustmentSummary summary =
+      adjust_pose(observations, pinhole, placed, inlier, nullptr, rolls ? &shutter : nullptr);
   if (!summary.usable || summary.inliers < kMinInliers) return std::nullopt;
   return placed;
 }
