@@ -20,7 +20,7 @@ using Model = TwoViewResult::Model;
 
 constexpr double kPointGate = 5.99;  // chi-square, 95 %, two degrees of freedom
 constexpr double kDegree = M_PI / 180;
-constexpr int kSearchSteps = 10;
+constexpr int kRefineSteps = 10;
 constexpr double kSure = 6;  // by so much a motion costs less than any other, in squared sigmas
 
 // What the matches say about one motion.
@@ -91,11 +91,10 @@ Votes collect_votes(const Problem& problem, const SE3& T_21) {
     // The sign of a far point's depth is noise: its directions must agree, no more.
     const Vector3d X1 = far && !p.in_front() ? Vector3d(x1.homogeneous()) : p.point;
     const Vector3d X2 = far && !p.in_front() ? Vector3d(R * X1) : Vector3d(R * X1 + t);
-    const bool agrees = (far || p.in_front()) && X1.z() > 0 && X2.z() > 0 &&
-                        squared_error(X1, x1, problem.px) < kPointGate &&
-                        squared_error(X2, x2, problem.px) < kPointGate;
-    votes.cost += agrees ? squared_error(X1, x1, problem.px) + squared_error(X2, x2, problem.px)
-                         : 2 * kPointGate;
+    const double e1 = squared_error(X1, x1, problem.px), e2 = squared_error(X2, x2, problem.px);
+    const bool agrees =
+        (far || p.in_front()) && X1.z() > 0 && X2.z() > 0 && e1 < kPointGate && e2 < kPointGate;
+    votes.cost += agrees ? e1 + e2 : 2 * kPointGate;
     if (!agrees) continue;
     votes.agreeing[i] = 1;
     ++votes.agreeing_count;
@@ -130,7 +129,8 @@ std::vector<Hypothesis> hypotheses(const Problem& problem, std::uint64_t seed) {
   if (!(H.score > problem.options.homography_share * (H.score + E.score))) return all;
   const HomographyMotions plane = decompose_homography(H.matrix);
   for (int i = 0; i < plane.count; ++i) {
-    const SE3 T_21 = refine_motion(plane.motions[i], problem.matches, H.inliers, problem.px, 10);
+    const SE3 T_21 =
+        refine_motion(plane.motions[i], problem.matches, H.inliers, problem.px, kRefineSteps);
     all.push_back({Model::kHomography, T_21, collect_votes(problem, T_21)});
   }
   return all;
@@ -166,7 +166,7 @@ Hypothesis best_other(const Problem& problem, const Hypothesis& best) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       const SE3 motion = refine_motion(SE3(R, sign * Vector3d::Unit(axis)), problem.matches,
-                                       best.votes.agreeing, problem.px, kSearchSteps);
+                                       best.votes.agreeing, problem.px, kRefineSteps);
       if (same_motion(motion, best.T_21)) continue;
       Votes votes = collect_votes(problem, motion);
       if (votes.cost < other.votes.cost) other = {best.model, motion, std::move(votes)};
@@ -235,7 +235,7 @@ TwoViewResult reconstruct_two_views(std::span<const Vector2d> pixels1,
     }
   }
   const SE3 refined =
-      refine_motion(best.T_21, problem.matches, best.votes.agreeing, problem.px, 10);
+      refine_motion(best.T_21, problem.matches, best.votes.agreeing, problem.px, kRefineSteps);
   Hypothesis polished{best.model, refined, collect_votes(problem, refined)};
   if (!best.better_than(polished)) best = std::move(polished);
 

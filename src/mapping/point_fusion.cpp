@@ -81,8 +81,8 @@ int fuse_into(Map& map, KeyframeId id, std::span<const PointId> points, double r
       map.update_descriptor(p);
       ++fused;
     } else {
-      const bool newer = map.points()[other].observations.size() > point.observations.size();
-      fused += newer ? merge_if_one(map, p, other) : merge_if_one(map, other, p);
+      const bool seen_more = map.points()[other].observations.size() > point.observations.size();
+      fused += seen_more ? merge_if_one(map, p, other) : merge_if_one(map, other, p);
     }
   }
   return fused;

@@ -9,8 +9,8 @@ namespace cairn {
 
 /// Projects points into a keyframe. Where one meets a keypoint that looks the same, the keypoint
 /// becomes an observation of it, or, if it has a point already, the two become one (the one that is
-/// seen more often stays). `radius`: pixels at octave 0. Returns how many links or merges were
-/// made.
+/// seen more often stays), unless most of what saw the other could not have seen it there.
+/// `radius`: pixels at octave 0. Returns how many links or merges were made.
 int fuse_into(Map& map, KeyframeId keyframe, std::span<const PointId> points, double radius);
 
 /// Fusion between a keyframe and its neighbourhood, both ways.
