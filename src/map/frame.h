@@ -33,16 +33,22 @@ class View {
   double log_scale_factor() const { return log_scale_factor_; }
   /// Size of a pixel of an octave in pixels of the full picture.
   double scale(int octave) const { return scale_[octave]; }
-  /// Standard deviation of a keypoint's position in each direction, pixels. `aligned`: it was moved
-  /// to where the picture looks as its point did before.
+  /// Standard deviation of a keypoint's position in each direction, pixels, where few are wrong.
+  /// `aligned`: it was moved to where the picture looks as its point did before.
   double sigma(int octave, bool aligned = false) const {
     return sigma_px_ * (aligned ? kAlignedSigma + kAlignedSlope * scale_[octave] : scale_[octave]);
+  }
+  /// Half-width of the core of its errors, pixels: most keypoints err less than sigma says, and
+  /// some much more. For a Cauchy loss.
+  double core(int octave, bool aligned) const {
+    return (aligned ? kAlignedCore : kCornerCore) * sigma(octave, aligned);
   }
 
  private:
   // Measured against the final maps of real and rendered sequences: a corner errs in proportion to
   // the size of its octave's pixels, a patch nearly by as much in every octave.
   static constexpr double kAlignedSigma = 0.3, kAlignedSlope = 0.07;
+  static constexpr double kAlignedCore = 0.5, kCornerCore = 0.75;
 
   Pinhole pinhole_;
   double min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;

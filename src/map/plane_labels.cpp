@@ -21,12 +21,14 @@ bool is_one_of(const std::array<std::string_view, N>& labels, const std::string&
 
 }  // namespace
 
+bool is_level(const std::string& label) { return is_one_of(kLevel, label); }
+
 bool is_upright(const std::string& label) { return is_one_of(kUpright, label); }
 
 bool carries_things(const std::string& label) { return is_one_of(kCarrying, label); }
 
 std::optional<PlaneRelation> implied_relation(const std::string& a, const std::string& b) {
-  const bool level_a = is_one_of(kLevel, a), level_b = is_one_of(kLevel, b);
+  const bool level_a = is_level(a), level_b = is_level(b);
   if (level_a && level_b) return PlaneRelation::kParallel;
   const bool square = (level_a && is_upright(b)) || (level_b && is_upright(a));
   return square ? std::optional(PlaneRelation::kPerpendicular) : std::nullopt;

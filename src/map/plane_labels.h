@@ -11,6 +11,9 @@ namespace cairn {
 /// upright. None of two upright ones, which may meet at any angle, and of labels that say nothing.
 std::optional<PlaneRelation> implied_relation(const std::string& a, const std::string& b);
 
+/// Of floors, ceilings and the like.
+bool is_level(const std::string& label);
+
 /// Of walls, doors and the like.
 bool is_upright(const std::string& label);
 

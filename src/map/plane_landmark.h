@@ -65,7 +65,8 @@ struct PlaneLandmark {
   std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
   // Evidence, kept by mapping.
   double sigma_tilt = 3.2;  ///< of its normal, radians
-  double share = 0;         ///< of the points in its masks that lie on it
+  int judges = 0;           ///< points in its masks whose depth is sure enough to tell
+  double share = 0;         ///< of these, those that lie on it
   double detected = 0;      ///< share of the keyframes that see its points in which it was detected
   /// How far its points lie off it, robustly (1.48 times the median), as a share of their viewing
   /// distance: surfaces are not flat, and things lie on them.

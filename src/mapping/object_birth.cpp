@@ -15,9 +15,10 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMiddle = 0.6;  // of a box, in which what is seen is mostly the thing itself
 constexpr std::size_t kFewPoints = 3;
-constexpr double kFarTooLarge = 3;   // σ of the class's size
-constexpr double kUprightOdds = 8;   // in the cost: things stand as usual rather than in any way
-constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
+constexpr double kFarTooLarge = 3;    // σ of the class's size
+constexpr double kUprightOdds = 8;    // in the cost: things stand as usual rather than in any way
+constexpr double kShareOfSize = 0.4;  // of a thing's longest semi-axis, that its place may be off
+constexpr double kLeastSlant = 0.1;   // of a unit vector, that its horizontal part says a direction
 
 // Depths of what the middle of a box shows.
 std::vector<double> depths_in(const Map& map, const Keyframe& keyframe, const SeenObject& seen,
@@ -148,9 +149,9 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
     const Eigen::Vector3d eye = T_rw * map.camera_of(o).translation();
     distance += (eye - fit.ellipsoid.centre()).norm() / double(landmark.observations.size());
   }
-  if (!(std::sqrt(place.eigenvalues()[2]) < options.max_sigma_place * distance)) {
-    return "place unsure";
-  }
+  const double near = std::max(options.max_sigma_place * distance,
+                               kShareOfSize * fit.ellipsoid.semi_axes.maxCoeff());
+  if (!(std::sqrt(place.eigenvalues()[2]) < near)) return "place unsure";
   const double sigma_size = std::sqrt(fit.covariance.bottomRightCorner<3, 3>().sum()) / 3;
   if (!(sigma_size < options.max_sigma_size)) return "size unsure";
   const double usual = usual_size(landmark.class_name()) * map.units_a_true_metre();

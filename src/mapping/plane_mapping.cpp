@@ -16,10 +16,14 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMinIndependent =
     1.5;                             // pictures: errors look alike for a while, surfaces for good
+constexpr double kEase = 0.75;       // of what must hold, for a plane that is confirmed already
 constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of its centroid
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
 constexpr double kMaxRelationAngle = 12 * kRadians;
+constexpr double kIndependentOfBare = 3;  // pictures that a surface without points must have
+constexpr double kProbationOfBare = 30;   // seconds
+constexpr double kMaxTiltOfBare = 2.5 * kRadians;
 constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
@@ -93,26 +97,51 @@ double spread(const Map& map, PlaneId id) {
   return off.empty() ? 1 : robust_sigma(off);
 }
 
+// A ceiling or a wall without a mark on it: no point says where it lies, nor that it does not. With
+// Manhattan relations the others say how it stands, and many pictures how far off it is.
+bool is_bare_surface(const PlaneLandmark& landmark, const PlaneMappingOptions& options) {
+  return options.manhattan && landmark.judges < options.min_points &&
+         static_cast<int>(landmark.sightings) >= options.min_sightings &&
+         landmark.sigma_tilt <= kMaxTiltOfBare &&
+         (is_level(landmark.label()) || is_upright(landmark.label()));
+}
+
 bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
   const PlaneLandmark& landmark = map.planes()[id];
   const auto measured = std::count_if(landmark.points.begin(), landmark.points.end(),
                                       [&](PointId p) { return !map.points()[p].assumed; });
+  // What has been a plane so far does not cease to be one by a point.
+  const double ease = landmark.confirmed ? kEase : 1;
   return static_cast<int>(landmark.sightings) >= options.min_sightings &&
          landmark.independent >= kMinIndependent &&
-         static_cast<int>(measured) >= options.min_points &&
+         static_cast<double>(measured) >= ease * options.min_points &&
          landmark.sigma_tilt <= options.max_tilt_sigma_deg * kRadians &&
-         landmark.spread <= options.max_spread && landmark.share >= options.min_share &&
-         landmark.detected >= options.min_detected;
+         landmark.spread <= options.max_spread / ease &&
+         landmark.share >= ease * options.min_share &&
+         landmark.detected >= ease * options.min_detected;
+}
+
+void log_plane(PlaneId id, const PlaneLandmark& landmark, const char* fate) {
+  spdlog::debug(
+      "plane {} ({}): {} pictures, {:.2f} of all, {} points, {:.2f} of all, spread {:.4f}, tilt "
+      "{:.1f} deg: {}",
+      int(id.slot), landmark.label(), landmark.sightings, landmark.detected, landmark.points.size(),
+      landmark.share, landmark.spread, landmark.sigma_tilt / kRadians, fate);
 }
 
 void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+    // Only pictures say where a bare surface is: it needs more of them, and time until they come.
+    const double probation =
+        is_bare_surface(landmark, options) ? kProbationOfBare : options.probation;
     const auto seen_lately = [&](const PlaneObservation& o) {
-      return now - map.keyframes()[o.keyframe].timestamp() <= options.probation;
+      return now - map.keyframes()[o.keyframe].timestamp() <= probation;
     };
     const bool late =
         std::none_of(landmark.observations.begin(), landmark.observations.end(), seen_lately);
-    if (late && !confirmed(map, id, options)) map.erase_plane(id);
+    if (!late || confirmed(map, id, options)) return;
+    log_plane(id, landmark, "forgotten");
+    map.erase_plane(id);
   });
 }
 
@@ -229,13 +258,10 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
   update_evidence(map, options);
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-    spdlog::debug(
-        "plane {} ({}): {} pictures, {:.2f} of all, {} points, {:.2f} of all, spread {:.4f}, tilt "
-        "{:.1f} deg: {}",
-        int(id.slot), landmark.label(), landmark.sightings, landmark.detected,
-        landmark.points.size(), landmark.share, landmark.spread, landmark.sigma_tilt / kRadians,
-        landmark.confirmed ? "kept" : "refused");
-    if (!landmark.confirmed) map.erase_plane(id);
+    const bool stays = landmark.confirmed || (is_bare_surface(landmark, options) &&
+                                              landmark.independent >= kIndependentOfBare);
+    log_plane(id, landmark, stays ? "kept" : "refused");
+    if (!stays) map.erase_plane(id);
   });
 }
 

@@ -215,6 +215,7 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   }
   const Plane plane = map.plane_in_world(id);
   const auto [on, sure] = points_on(map, plane, seen, point_sigma);
+  landmark.judges = sure;
   landmark.share = sure > 0 ? double(on.size()) / sure : 0;
   // Of a plane that is well known those at the rims are told from what stands in front.
   const bool well_known = landmark.sigma_tilt < kWellKnown;

@@ -11,6 +11,7 @@
 
 #include "cairn/optimization/depth_blocks.h"
 #include "cairn/optimization/factors/lens_point_factor.h"
+#include "cairn/optimization/factors/odometry_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
 #include "cairn/optimization/factors/rolling_point_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
@@ -24,21 +25,53 @@ namespace {
 
 constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
 
-// How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
-// errors of a point's observations are alike, so the data are less sure than they look, and the
-// prior has to be firm: where motion hardly shows the lens, it must not drift away.
 // Seconds. Most cameras read within a frame of a film; from one local adjustment to the next little
 // is learnt, as they share most of what they see.
 constexpr double kReadoutSigma = 0.02, kReadoutStep = 0.005, kLongestReadout = 0.05;
+// How far off calibrations are: focal length 0.3 %, distortion 0.003, principal point 0.7 px. The
+// errors of a point's observations are alike, so the data are less sure than they look, and what is
+// known of the camera has to be firm: where motion hardly shows the lens, it must not drift away.
 constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 0.003, 0.7, 0.7};
+constexpr double kFirm = 3;
+// Minus the logarithm of Cauchy's density in two dimensions is (3 / 2) log(1 + |e|^2), and Ceres
+// takes half of a loss.
+constexpr double kCauchy = 3;
+
+// What drifted is far from where its points would hold it: the first fit has a wider core.
+constexpr double kFirstWidth = 5;
+
+// Of the step from one keyframe to the next, as tracking had it: where many points say it, they say
+// it a hundred times better. Where few do, a wrong one must not tear the path.
+constexpr double kShareOfStep = 0.3, kTurnOfStep = 0.05;  // of its length; radians
+constexpr double kLongestStep = 2;                        // seconds
+
+struct Step {
+  KeyframeId a, b;
+  SE3 T_ab;
+};
+
+// Between keyframes that follow each other.
+std::vector<Step> steps_of(const Map& map) {
+  std::vector<std::pair<double, KeyframeId>> order;
+  map.keyframes().for_each(
+      [&](KeyframeId id, const Keyframe& k) { order.emplace_back(k.timestamp(), id); });
+  std::sort(order.begin(), order.end());
+  std::vector<Step> steps;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i].first - order[i - 1].first > kLongestStep) continue;
+    const KeyframeId a = order[i - 1].second, b = order[i].second;
+    steps.push_back({a, b, map.keyframes()[a].T_wc.inverse() * map.keyframes()[b].T_wc});
+  }
+  return steps;
+}
 
 // A part of the map as a least-squares problem: contiguous parameters, filled from the map, written
 // back to it.
 class Adjustment {
  public:
   Adjustment(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
-             std::vector<PointId> points, const AdjustmentOptions& options, bool full = false,
-             bool refine_lens = false)
+             std::vector<PointId> points, const AdjustmentOptions& options, double width = 1,
+             bool full = false, bool refine_lens = false)
       : map_(map),
         full_(full),
         refine_lens_(refine_lens),
@@ -51,7 +84,8 @@ class Adjustment {
         points_(std::move(points)),
         depths_(map, options.planes.predicted_depth),
         planes_(map, options.planes),
-        objects_(map, options.objects) {
+        objects_(map, options.objects),
+        cauchy_(width) {
     free_count_ = keyframes_.size();
     keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
     for (std::size_t i = 0; i < keyframes_.size(); ++i) {
@@ -85,6 +119,21 @@ class Adjustment {
     summary.initial_rms = std::sqrt(2 * s.initial_cost / n);
     summary.final_rms = std::sqrt(2 * s.final_cost / n);
     return summary;
+  }
+
+  // Steps are at least about as unsure as the usual one is long: a camera may turn where it stands.
+  void hold_steps(const std::vector<Step>& steps) {
+    double usual = 0;
+    for (const Step& s : steps) usual += s.T_ab.translation().norm() / double(steps.size());
+    for (const Step& s : steps) {
+      const double sigma = kShareOfStep * (usual + s.T_ab.translation().norm());
+      if (!(sigma > 0)) continue;
+      odometry_factors_.emplace_back(s.T_ab, sigma, kTurnOfStep);
+      const auto block = [&](KeyframeId id) {
+        return &pose_values_[std::size_t(7 * index_of_slot_[id.slot])];
+      };
+      problem_->AddResidualBlock(&odometry_factors_.back(), nullptr, block(s.a), block(s.b));
+    }
   }
 
   // The unit of a monocular map is free: keyframes and points can shrink together at no cost, and
@@ -194,7 +243,7 @@ class Adjustment {
     for (const Edge& edge : observations_) {
       const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
       const Pinhole& pinhole = map_.view().pinhole();
-      const double sigma = map_.view().sigma(frame.octave(edge.keypoint), edge.aligned);
+      const double sigma = map_.view().core(frame.octave(edge.keypoint), edge.aligned);
       double* pose = &pose_values_[std::size_t{7} * edge.keyframe];
       double* point = &point_values_[std::size_t{3} * edge.point];
       if (estimate_readout_ && frame.rolls()) {
@@ -214,9 +263,9 @@ class Adjustment {
     hold_unit();
     if (!rolling_factors_.empty()) {
       ordering_->AddElementToGroup(&readout_, kLensGroup);
-      problem_->AddResidualBlock(&readout_prior_, nullptr, &readout_);
+      problem_->AddResidualBlock(&readout_prior_, &firm_, &readout_);
     }
-    if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
+    if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, &firm_, lens_.values.data());
   }
 
   // Pixels by which an instant shutter would have seen a keypoint elsewhere, were the readout one
@@ -300,13 +349,16 @@ class Adjustment {
   std::deque<PointFactor> factors_;
   std::deque<LensPointFactor> lens_factors_;
   std::deque<RollingPointFactor> rolling_factors_;
+  std::deque<OdometryFactor> odometry_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
   std::optional<PoseBlocks> poses_;
   DepthBlocks depths_;
   PlaneBlocks planes_;
   ObjectBlocks objects_;
-  ceres::HuberLoss loss_{std::sqrt(kGate)};
+  ceres::CauchyLoss cauchy_;
+  ceres::ScaledLoss loss_{&cauchy_, kCauchy, ceres::DO_NOT_TAKE_OWNERSHIP};
+  ceres::ScaledLoss firm_{nullptr, kFirm, ceres::DO_NOT_TAKE_OWNERSHIP};
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
@@ -389,6 +441,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
 AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
                                const std::atomic<bool>* abort) {
   AdjustmentSummary summary;
+  const std::vector<Step> steps = steps_of(map);
   double initial_rms = 0;
   for (int round = 0; round < 2; ++round) {
     std::vector<KeyframeId> free, fixed;
@@ -397,8 +450,9 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     std::vector<PointId> points;
     map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
     if (free.empty() || points.empty()) return summary;
-    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options, true,
-                          lens);
+    Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options,
+                          round == 0 ? kFirstWidth : 1, true, lens);
+    adjustment.hold_steps(steps);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

@@ -74,6 +74,20 @@ TEST(FitToBoxes, TakesWhatIsOfNoKnownClassAsItIs) {
   EXPECT_TRUE(film.fit().fit.usable);
 }
 
+// 24 cm are a fifth of the distance: for a cup that is nowhere, for a table it is a place.
+TEST(Refusal, OfAnUnsurePlaceIsASmallThingsOnly) {
+  for (const double size : {0.1, 1.0}) {
+    const Ellipsoid thing = lying({size, 0.4 * size, 0.5 * size});
+    Film film(thing, "anvil", 40);
+    ObjectLandmark& landmark = film.map.objects()[testing::objects_of(film.map)[0]];
+    ObjectFit fit = film.fit().fit;
+    EXPECT_EQ(refusal(film.map, landmark, fit, {}), "") << size;
+    fit.ellipsoid = {fit.ellipsoid.T, thing.semi_axes};
+    fit.covariance.topLeftCorner<3, 3>() = 0.24 * 0.24 * Eigen::Matrix3d::Identity();
+    EXPECT_EQ(refusal(film.map, landmark, fit, {}), size < 0.5 ? "place unsure" : "") << size;
+  }
+}
+
 TEST(FindUp, IsTheDirectionThatNoCameraIsRolledAbout) {
   const auto up = find_up(map_of({}, around(12, 60)));
   ASSERT_TRUE(up);

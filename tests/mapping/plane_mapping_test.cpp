@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "geometry/planes.h"
 #include "map/flat_map.h"
 
@@ -193,6 +195,33 @@ TEST_F(MapPlanesOfPictures, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrif
   }
 }
 
+// No keypoint is on it: with the others well known, many pictures say where it is.
+TEST_F(MapPlanesOfPictures, OfABareCeilingManyPicturesAreEnoughWhereTheWorldIsManhattan) {
+  const auto ceiling = rectangle({-1, -1, 2.7}, {2, 0, 0}, {0, 0, 1.2});
+  for (const auto& [manhattan, pictures] : {std::pair{true, 12}, {true, 3}, {false, 12}}) {
+    options.manhattan = manhattan;
+    map = map_of(points, few_poses(12));
+    int shown = 0;
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(points.size(), 1);  // looked at
+      KeyframePerception seen = perceive(map, id, {wall_corners(), floor, ceiling}, 36, 1, 0.02);
+      const std::array<std::string, 3> labels = {"wall", "floor", "ceiling"};
+      for (std::size_t i : {0, 1, 2}) seen.planes[i].label = labels[i];
+      seen.planes[2].keypoints.clear();
+      seen.planes[2].inner.clear();
+      if (++shown > pictures) seen.planes.pop_back();
+      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+    }
+    remove_unconfirmed_planes(map, options);
+    const bool known = manhattan && pictures > 5;
+    ASSERT_THAT(planes_of(map), SizeIs(known ? 3 : 2)) << manhattan << ", " << pictures;
+    if (!known) continue;
+    const Plane truth = Plane::through({0, -1, 3}, Eigen::Vector3d::UnitY());
+    EXPECT_THAT(map.plane_in_world(planes_of(map)[2]), IsNearPlane(truth, 2, 0.05));
+    EXPECT_EQ(broken_planes(map), "");
+  }
+}
+
 // What 0.3 units are from far away says nothing of shelves that are near.
 TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
   const KeyframeId id = map.first();
@@ -229,6 +258,31 @@ TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSur
   remove_unconfirmed_planes(map, options);
   EXPECT_THAT(planes_of(map), ElementsAre(sure));
   EXPECT_EQ(broken_planes(map), "");
+}
+
+// Eight points of a wall; then three of them are gone.
+TEST_F(MapPlanesOfPictures, AConfirmedPlaneDoesNotGoForAPointItHasLost) {
+  for (const auto& [lost, stays] : {std::pair{3, true}, {4, false}}) {
+    map = map_of(points, few_poses(6));
+    PlaneId wall;
+    for (int i = 0; i < 6; ++i) {
+      const KeyframeId keyframe = keyframes_of(map)[i];
+      map.keyframes()[keyframe].depth.assign(points.size(), 1);  // looked at
+      SeenPlane seen = seen_from(few_poses(6)[i], wall_corners());
+      seen.sigma_angle = 0.2;
+      seen.sigma_offset = 0.1;
+      seen.keypoints = seen.inner = {0, 1, 4, 5, 30, 31, 34, 35};
+      if (i == 0) wall = map.add_plane(keyframe, seen);
+      if (i > 0) map.observe_plane(wall, keyframe, seen);
+    }
+    const std::vector<PointId> all = points_of(map);
+    remove_unconfirmed_planes(map, options);
+    ASSERT_TRUE(map.planes().contains(wall));
+    const std::array<std::uint32_t, 4> gone = {1, 4, 31, 34};
+    for (int i = 0; i < lost; ++i) map.erase_point(all[gone[std::size_t(i)]]);
+    remove_unconfirmed_planes(map, options);
+    EXPECT_EQ(map.planes().contains(wall), stays) << lost;
+  }
 }
 
 }  // namespace
