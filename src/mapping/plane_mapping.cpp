@@ -16,15 +16,14 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMinIndependent =
     1.5;                             // pictures: errors look alike for a while, surfaces for good
-constexpr double kEase = 0.75;       // of what must hold, for a plane that is confirmed already
 constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of its centroid
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
 constexpr double kMaxRelationAngle = 12 * kRadians;
-constexpr double kIndependentOfBare = 3;  // pictures that a surface without points must have
-constexpr double kProbationOfBare = 30;   // seconds
-constexpr double kMaxTiltOfBare = 2.5 * kRadians;
 constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
+constexpr double kIndependentOfBare = 3;       // pictures that a surface without points must have
+constexpr double kProbationOfBare = 30;        // seconds
+constexpr double kMaxTiltOfBare = 2.5 * kRadians;
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
   return static_cast<int>(
@@ -110,15 +109,12 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
   const PlaneLandmark& landmark = map.planes()[id];
   const auto measured = std::count_if(landmark.points.begin(), landmark.points.end(),
                                       [&](PointId p) { return !map.points()[p].assumed; });
-  // What has been a plane so far does not cease to be one by a point.
-  const double ease = landmark.confirmed ? kEase : 1;
   return static_cast<int>(landmark.sightings) >= options.min_sightings &&
          landmark.independent >= kMinIndependent &&
-         static_cast<double>(measured) >= ease * options.min_points &&
+         static_cast<int>(measured) >= options.min_points &&
          landmark.sigma_tilt <= options.max_tilt_sigma_deg * kRadians &&
-         landmark.spread <= options.max_spread / ease &&
-         landmark.share >= ease * options.min_share &&
-         landmark.detected >= ease * options.min_detected;
+         landmark.spread <= options.max_spread && landmark.share >= options.min_share &&
+         landmark.detected >= options.min_detected;
 }
 
 void log_plane(PlaneId id, const PlaneLandmark& landmark, const char* fate) {

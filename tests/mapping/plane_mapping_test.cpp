@@ -260,30 +260,5 @@ TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSur
   EXPECT_EQ(broken_planes(map), "");
 }
 
-// Eight points of a wall; then three of them are gone.
-TEST_F(MapPlanesOfPictures, AConfirmedPlaneDoesNotGoForAPointItHasLost) {
-  for (const auto& [lost, stays] : {std::pair{3, true}, {4, false}}) {
-    map = map_of(points, few_poses(6));
-    PlaneId wall;
-    for (int i = 0; i < 6; ++i) {
-      const KeyframeId keyframe = keyframes_of(map)[i];
-      map.keyframes()[keyframe].depth.assign(points.size(), 1);  // looked at
-      SeenPlane seen = seen_from(few_poses(6)[i], wall_corners());
-      seen.sigma_angle = 0.2;
-      seen.sigma_offset = 0.1;
-      seen.keypoints = seen.inner = {0, 1, 4, 5, 30, 31, 34, 35};
-      if (i == 0) wall = map.add_plane(keyframe, seen);
-      if (i > 0) map.observe_plane(wall, keyframe, seen);
-    }
-    const std::vector<PointId> all = points_of(map);
-    remove_unconfirmed_planes(map, options);
-    ASSERT_TRUE(map.planes().contains(wall));
-    const std::array<std::uint32_t, 4> gone = {1, 4, 31, 34};
-    for (int i = 0; i < lost; ++i) map.erase_point(all[gone[std::size_t(i)]]);
-    remove_unconfirmed_planes(map, options);
-    EXPECT_EQ(map.planes().contains(wall), stays) << lost;
-  }
-}
-
 }  // namespace
 }  // namespace cairn
