@@ -112,7 +112,7 @@ BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
     views.push_back({T_cr, o.box, o.cut, o.sigma, worth * o.score});
   }
   const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_true_metre());
-  const BoxFit free{fit_object(landmark.ellipsoid, views, map.view().pinhole(), prior), false};
+  BoxFit free{fit_object(landmark.ellipsoid, views, map.view().pinhole(), prior), false};
   const ObjectClass* known = find_object_class(landmark.class_name());
   if (!map.up || known == nullptr) return free;
   const Upward up{T_wr.rotation().conjugate() * map.up->direction, map.up->sigma};

@@ -130,7 +130,7 @@ class Adjustment {
       if (!(sigma > 0)) continue;
       odometry_factors_.emplace_back(s.T_ab, sigma, kTurnOfStep);
       const auto block = [&](KeyframeId id) {
-        return &pose_values_[std::size_t(7 * index_of_slot_[id.slot])];
+        return &pose_values_[std::size_t{7} * std::size_t(index_of_slot_[id.slot])];
       };
       problem_->AddResidualBlock(&odometry_factors_.back(), nullptr, block(s.a), block(s.b));
     }
@@ -292,7 +292,7 @@ class Adjustment {
   void add_landmarks() {
     poses_.emplace(map_, *problem_, *ordering_, [this](KeyframeId id) {
       const int i = id.slot < index_of_slot_.size() ? index_of_slot_[id.slot] : -1;
-      return i < 0 ? nullptr : &pose_values_[std::size_t(7 * i)];
+      return i < 0 ? nullptr : &pose_values_[std::size_t{7} * std::size_t(i)];
     });
     planes_.add_to(*problem_, *ordering_, *poses_, [this](PointId id) {
       const auto at = std::lower_bound(points_.begin(), points_.end(), id);

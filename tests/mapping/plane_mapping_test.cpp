@@ -20,8 +20,6 @@ using testing::IsNearPlane;
 using testing::keyframes_of;
 using testing::map_of;
 using testing::planes_of;
-using testing::points_of;
-using testing::Random;
 using testing::rectangle;
 using testing::seen_from;
 using ::testing::SizeIs;
