@@ -11,11 +11,11 @@
 
 #include "cairn/optimization/depth_blocks.h"
 #include "cairn/optimization/factors/lens_point_factor.h"
-#include "cairn/optimization/factors/odometry_factor.h"
 #include "cairn/optimization/factors/point_factor.h"
 #include "cairn/optimization/factors/rolling_point_factor.h"
 #include "cairn/optimization/factors/unit_factor.h"
 #include "cairn/optimization/object_blocks.h"
+#include "cairn/optimization/odometry_blocks.h"
 #include "cairn/optimization/plane_blocks.h"
 #include "cairn/optimization/pose_blocks.h"
 #include "cairn/optimization/se3_manifold.h"
@@ -39,31 +39,6 @@ constexpr double kCauchy = 3;
 
 // What drifted is far from where its points would hold it: the first fit has a wider core.
 constexpr double kFirstWidth = 5;
-
-// Of the step from one keyframe to the next, as tracking had it: where many points say it, they say
-// it a hundred times better. Where few do, a wrong one must not tear the path.
-constexpr double kShareOfStep = 0.3, kTurnOfStep = 0.05;  // of its length; radians
-constexpr double kLongestStep = 2;                        // seconds
-
-struct Step {
-  KeyframeId a, b;
-  SE3 T_ab;
-};
-
-// Between keyframes that follow each other.
-std::vector<Step> steps_of(const Map& map) {
-  std::vector<std::pair<double, KeyframeId>> order;
-  map.keyframes().for_each(
-      [&](KeyframeId id, const Keyframe& k) { order.emplace_back(k.timestamp(), id); });
-  std::sort(order.begin(), order.end());
-  std::vector<Step> steps;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (order[i].first - order[i - 1].first > kLongestStep) continue;
-    const KeyframeId a = order[i - 1].second, b = order[i].second;
-    steps.push_back({a, b, map.keyframes()[a].T_wc.inverse() * map.keyframes()[b].T_wc});
-  }
-  return steps;
-}
 
 // A part of the map as a least-squares problem: contiguous parameters, filled from the map, written
 // back to it.
@@ -121,19 +96,8 @@ class Adjustment {
     return summary;
   }
 
-  // Steps are at least about as unsure as the usual one is long: a camera may turn where it stands.
-  void hold_steps(const std::vector<Step>& steps) {
-    double usual = 0;
-    for (const Step& s : steps) usual += s.T_ab.translation().norm() / double(steps.size());
-    for (const Step& s : steps) {
-      const double sigma = kShareOfStep * (usual + s.T_ab.translation().norm());
-      if (!(sigma > 0)) continue;
-      odometry_factors_.emplace_back(s.T_ab, sigma, kTurnOfStep);
-      const auto block = [&](KeyframeId id) {
-        return &pose_values_[std::size_t{7} * std::size_t(index_of_slot_[id.slot])];
-      };
-      problem_->AddResidualBlock(&odometry_factors_.back(), nullptr, block(s.a), block(s.b));
-    }
+  void hold_steps(OdometryBlocks& odometry) {
+    odometry.add_to(*problem_, [this](KeyframeId id) { return pose_of(id); });
   }
 
   // The unit of a monocular map is free: keyframes and points can shrink together at no cost, and
@@ -288,12 +252,15 @@ class Adjustment {
     depths_.add_to(*problem_, *ordering_, sights, full_);
   }
 
+  // Null for keyframes that are no part of this.
+  double* pose_of(KeyframeId id) {
+    const int i = id.slot < index_of_slot_.size() ? index_of_slot_[id.slot] : -1;
+    return i < 0 ? nullptr : &pose_values_[std::size_t{7} * std::size_t(i)];
+  }
+
   // Planes first: objects stand on them.
   void add_landmarks() {
-    poses_.emplace(map_, *problem_, *ordering_, [this](KeyframeId id) {
-      const int i = id.slot < index_of_slot_.size() ? index_of_slot_[id.slot] : -1;
-      return i < 0 ? nullptr : &pose_values_[std::size_t{7} * std::size_t(i)];
-    });
+    poses_.emplace(map_, *problem_, *ordering_, [this](KeyframeId id) { return pose_of(id); });
     planes_.add_to(*problem_, *ordering_, *poses_, [this](PointId id) {
       const auto at = std::lower_bound(points_.begin(), points_.end(), id);
       return at == points_.end() || *at != id
@@ -349,7 +316,6 @@ class Adjustment {
   std::deque<PointFactor> factors_;
   std::deque<LensPointFactor> lens_factors_;
   std::deque<RollingPointFactor> rolling_factors_;
-  std::deque<OdometryFactor> odometry_factors_;
   LensPriorFactor lens_prior_{kLensSigma};
   std::unique_ptr<UnitFactor> unit_;
   std::optional<PoseBlocks> poses_;
@@ -441,7 +407,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
 AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
                                const std::atomic<bool>* abort) {
   AdjustmentSummary summary;
-  const std::vector<Step> steps = steps_of(map);
+  OdometryBlocks odometry(map);  // before the first round
   double initial_rms = 0;
   for (int round = 0; round < 2; ++round) {
     std::vector<KeyframeId> free, fixed;
@@ -452,7 +418,7 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     if (free.empty() || points.empty()) return summary;
     Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options,
                           round == 0 ? kFirstWidth : 1, true, lens);
-    adjustment.hold_steps(steps);
+    adjustment.hold_steps(odometry);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

@@ -35,8 +35,8 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
 
 /// Adjusts everything; the first keyframe is held, and so is the unit of the map, and where points
 /// are few how keyframes lay to each other. Runs twice: once with all observations, once without
-/// those that the first run shows to be wrong. With `lens`, the
-/// correction of the lens is estimated, too.
+/// those that the first run shows to be wrong. With `lens`, the correction of the lens is
+/// estimated, too.
 AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
                                const std::atomic<bool>* abort);
 
