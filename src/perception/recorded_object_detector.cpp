@@ -17,8 +17,8 @@ void RecordedObjectDetector::detect(const PerceptionInput& input, DetectedFrame&
     frame.problem = "the picture is empty";
     return;
   }
-  const DetectedFrame* recorded = frames_.at(input.timestamp);
-  if (recorded == nullptr) return;
+  const std::optional<DetectedFrame> recorded = frames_.at(input.timestamp);
+  if (!recorded) return;
   const std::vector<std::string>& classes = options_.classes;
   for (DetectedObject object : recorded->objects) {
     const bool wanted = classes.empty() || std::find(classes.begin(), classes.end(),

@@ -10,7 +10,7 @@ namespace cairn {
 /// Gives back the objects that a file (perception.jsonl) has of a picture, by its time.
 class RecordedObjectDetector : public ObjectDetector {
  public:
-  /// Throws Error(kInput) as read_recorded_perception does. `max_difference_s`: RecordedFrames.
+  /// Throws Error(kInput) as RecordedFrames does. `max_difference_s`: RecordedFrames.
   explicit RecordedObjectDetector(const std::filesystem::path& file,
                                   const ObjectDetectorOptions& options = {},
                                   double max_difference_s = 0.005);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -182,20 +181,6 @@ DetectedFrame parse_json_line(const std::string& line, const std::string& where)
     throw Error(Error::Kind::kInput,
                 where + ": " + e.what() + "; record the detections again or remove the line");
   }
-}
-
-std::vector<DetectedFrame> read_recorded_perception(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw Error(Error::Kind::kInput, file.string() + ": cannot be read as recorded detections");
-  }
-  std::vector<DetectedFrame> frames;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    frames.push_back(parse_json_line(line, file.string() + ", line " + std::to_string(number)));
-  }
-  return frames;
 }
 
 }  // namespace cairn

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "cairn/perception/detections.h"
 
@@ -21,8 +19,5 @@ std::string to_json_line(const DetectedFrame& frame);
 /// boxes without area, planes without a normal, sigmas that are not positive. Keys that it does not
 /// know are passed over.
 DetectedFrame parse_json_line(const std::string& line, const std::string& where);
-
-/// All lines of a file, in their order; empty lines are passed over. Throws Error(kInput).
-std::vector<DetectedFrame> read_recorded_perception(const std::filesystem::path& file);
 
 }  // namespace cairn

@@ -7,8 +7,7 @@ RecordedPlaneDetector::RecordedPlaneDetector(const std::filesystem::path& file,
     : frames_(file, max_difference_s) {}
 
 DetectedFrame RecordedPlaneDetector::detect(const PerceptionInput& input) {
-  const DetectedFrame* recorded = frames_.at(input.timestamp);
-  DetectedFrame frame = recorded != nullptr ? *recorded : DetectedFrame();
+  DetectedFrame frame = frames_.at(input.timestamp).value_or(DetectedFrame());
   frame.timestamp = input.timestamp;
   return frame;
 }

@@ -10,7 +10,7 @@ namespace cairn {
 /// Gives back what a file (perception.jsonl) says of a picture, objects included, by its time.
 class RecordedPlaneDetector : public PlaneDetector {
  public:
-  /// Throws Error(kInput) as read_recorded_perception does. A picture takes the nearest frame not
+  /// Throws Error(kInput) as RecordedFrames does. A picture takes the nearest frame not
   /// further than `max_difference_s`, which must be below half the time between pictures.
   explicit RecordedPlaneDetector(const std::filesystem::path& file,
                                  double max_difference_s = 0.005);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cairn/geometry/error.h"
+#include "cairn/perception/recorded_frames.h"
 
 namespace cairn {
 namespace {
@@ -121,18 +122,20 @@ TEST(RecordedPerception, ReadsAFileLineByLine) {
   DetectedFrame second = example();
   second.timestamp = 2.5;
   std::ofstream(file) << to_json_line(example()) << "\n\n" << to_json_line(second) << "\n";
-  const auto frames = read_recorded_perception(file);
-  ASSERT_EQ(frames.size(), 2u);
-  EXPECT_EQ(frames[1].timestamp, 2.5);
+  const RecordedFrames frames(file);
+  ASSERT_TRUE(frames.at(example().timestamp) && frames.at(2.5));
+  EXPECT_EQ(frames.at(2.5)->timestamp, 2.5);
+  EXPECT_EQ(frames.at(2.5)->objects.size(), example().objects.size());
+  EXPECT_FALSE(frames.at(2.0));
   std::ofstream(file) << to_json_line(example()) << "\n\nnot JSON\n";
   try {
-    read_recorded_perception(file);
+    const RecordedFrames bad(file);
     FAIL() << "a bad line was read";
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("line 3"));
   }
   std::filesystem::remove(file);
-  EXPECT_THROW(read_recorded_perception(file), Error);
+  EXPECT_THROW(RecordedFrames{file}, Error);
 }
 
 }  // namespace
