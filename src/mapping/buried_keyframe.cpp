@@ -3,10 +3,19 @@
 namespace cairn {
 
 BuriedKeyframe bury_keyframe(Map& map, KeyframeId id) {
+  const Keyframe& keyframe = map.keyframes()[id];
   BuriedKeyframe buried;
   buried.id = id;
   buried.parent = map.covisible(id, 1).front().first;
-  buried.T_pk = map.keyframes()[buried.parent].T_wc.inverse() * map.keyframes()[id].T_wc;
+  buried.T_pk = map.keyframes()[buried.parent].T_wc.inverse() * keyframe.T_wc;
+  buried.timestamp = keyframe.timestamp();
+  std::vector<char> aligned(keyframe.points.size());
+  for (std::size_t i = 0; i < aligned.size(); ++i) {
+    const MapPoint* point = map.points().find(keyframe.points[i]);
+    aligned[i] = point != nullptr && point->seen_from(id)->aligned();
+  }
+  buried.sightings = sightings_of(*keyframe.frame, keyframe.points, aligned);
+  buried.last_birth = map.keyframes()[map.newest()].sequence;
   map.erase_keyframe(id);
   return buried;
 }

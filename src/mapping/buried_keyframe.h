@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/map/map.h"
+#include "cairn/mapping/sighting.h"
 
 namespace cairn {
 
@@ -14,6 +15,10 @@ namespace cairn {
 struct BuriedKeyframe {
   KeyframeId id, parent;
   SE3 T_pk;  ///< keyframe to parent
+  double timestamp = 0;
+  /// What it saw when it was buried: more, and more exactly, than when it was tracked.
+  std::vector<Sighting> sightings = {};
+  std::uint32_t last_birth = 0;  ///< as in `place`, at that time
 };
 
 /// Takes a keyframe out of the map. Its parent is the keyframe that shares most points with it.

@@ -84,13 +84,11 @@ void FrameLog::add(double timestamp, KeyframeId reference, const SE3& T_rc, cons
   live_.push_back({timestamp, T_wc});
 }
 
-std::optional<SE3> FrameLog::place_in(const Map& map, const Entry& entry, const SE3& T_wc,
-                                      const Vector6d& velocity) const {
+// None where they cannot be read.
+std::vector<Sighting> FrameLog::sightings_at(const Entry& entry) const {
   std::vector<Sighting> sightings(entry.sightings.bytes / sizeof(Sighting));
-  if (!seen_.read(entry.sightings, std::as_writable_bytes(std::span(sightings)))) {
-    return std::nullopt;
-  }
-  return place(map, sightings, entry.last_birth, T_wc, velocity);
+  if (!seen_.read(entry.sightings, std::as_writable_bytes(std::span(sightings)))) return {};
+  return sightings;
 }
 
 Trajectory FrameLog::final_trajectory(const Map& map,
@@ -99,6 +97,8 @@ Trajectory FrameLog::final_trajectory(const Map& map,
   std::map<double, KeyframeId> keyframes;
   map.keyframes().for_each(
       [&](KeyframeId id, const Keyframe& k) { keyframes[k.timestamp()] = id; });
+  std::map<double, const BuriedKeyframe*> graves;
+  for (const BuriedKeyframe& b : buried) graves[b.timestamp] = &b;
   std::vector<const Entry*> entries;
   std::vector<Carried> frames;
   std::vector<std::optional<Anchor>> anchors;
@@ -115,8 +115,15 @@ Trajectory FrameLog::final_trajectory(const Map& map,
   const Trajectory carried = share_drift(frames, anchors);
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
     if (anchors[i]) return;
-    const auto T_wc = place_in(map, *entries[i], carried[i].T_wc, velocity_at(carried, i));
-    if (T_wc) anchors[i] = {*T_wc, {}};
+    const Entry& entry = *entries[i];
+    const auto grave = graves.find(entry.timestamp);
+    const SE3& T_wc = carried[i].T_wc;
+    const Vector6d velocity = velocity_at(carried, i);
+    const auto placed =
+        grave == graves.end()
+            ? place(map, sightings_at(entry), entry.last_birth, T_wc, velocity)
+            : place(map, grave->second->sightings, grave->second->last_birth, T_wc, velocity);
+    if (placed) anchors[i] = {*placed, {}};
   });
   spdlog::debug("{} of {} frames found their place in the final map",
                 std::count_if(anchors.begin(), anchors.end(), [](const auto& a) { return !!a; }),

@@ -19,7 +19,8 @@ class FrameLog {
            std::span<const Sighting> sightings = {}, std::uint32_t last_birth = 0);
 
   /// Each frame where the final map says that it was: keyframes where they are, others where they
-  /// see what they saw; those that saw too little keep their place between frames that did not.
+  /// see what they saw (`buried` ones when they were buried); those that saw too little keep their
+  /// place between frames that did not.
   Trajectory final_trajectory(const Map& map, std::span<const BuriedKeyframe> buried) const;
   const Trajectory& live_trajectory() const { return live_; }
 
@@ -32,8 +33,7 @@ class FrameLog {
     std::uint32_t last_birth;
   };
 
-  std::optional<SE3> place_in(const Map& map, const Entry& entry, const SE3& T_wc,
-                              const Vector6d& velocity) const;
+  std::vector<Sighting> sightings_at(const Entry& entry) const;
 
   std::vector<Entry> entries_;
   Trajectory live_;

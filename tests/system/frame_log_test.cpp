@@ -74,6 +74,24 @@ TEST_F(FrameLogTest, AFrameIsWhereItSeesWhatItSaw) {
       << "what saw too little drifts as the frame before it did";
 }
 
+TEST_F(FrameLogTest, AFrameThatWasAKeyframeIsWhereItSawWhatItSawAtLast) {
+  Map seen = testing::true_map(
+      world, std::vector<SE3>{along(0), along(0.4), along(0.6), along(0.8), along(1.2)});
+  KeyframeId id;
+  seen.keyframes().for_each([&](KeyframeId k, const Keyframe& keyframe) {
+    if (distance(keyframe.T_wc, along(0.6)) < 1e-9) id = k;
+  });
+  const double timestamp = seen.keyframes()[id].timestamp();
+  const std::vector<BuriedKeyframe> buried = {bury_keyframe(seen, id)};
+  EXPECT_FALSE(seen.keyframes().contains(id));
+  EXPECT_GE(buried[0].sightings.size(), 30u);
+  const SE3 T_rc = along(0.63);
+  log.add(timestamp, seen.first(), T_rc, T_rc);  // tracking saw nothing of what is now in the map
+  const Trajectory trajectory = log.final_trajectory(seen, buried);
+  ASSERT_EQ(trajectory.size(), 1u);
+  EXPECT_LT((trajectory[0].T_wc.translation() - along(0.6).translation()).norm(), 0.004);
+}
+
 TEST_F(FrameLogTest, KeyframesComeInOrderOfTime) {
   map.erase_keyframe(first);
   add_keyframe(along(1), 2);
