@@ -32,10 +32,6 @@ constexpr double kReadoutSigma = 0.02, kReadoutStep = 0.005, kLongestReadout = 0
 // errors of a point's observations are alike, so the data are less sure than they look, and what is
 // known of the camera has to be firm: where motion hardly shows the lens, it must not drift away.
 constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 0.003, 0.7, 0.7};
-constexpr double kFirm = 3;
-// Minus the logarithm of Cauchy's density in two dimensions is (3 / 2) log(1 + |e|^2), and Ceres
-// takes half of a loss.
-constexpr double kCauchy = 3;
 
 // What drifted is far from where its points would hold it: the first fit has a wider core.
 constexpr double kFirstWidth = 5;
@@ -213,13 +209,14 @@ class Adjustment {
       if (estimate_readout_ && frame.rolls()) {
         rolling_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma, frame.readout,
                                       drift(edge));
-        problem_->AddResidualBlock(&rolling_factors_.back(), &loss_, pose, point, &readout_);
+        problem_->AddResidualBlock(&rolling_factors_.back(), &cauchy_, pose, point, &readout_);
       } else if (refine_lens_) {
         lens_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
-        problem_->AddResidualBlock(&lens_factors_.back(), &loss_, pose, point, lens_.values.data());
+        problem_->AddResidualBlock(&lens_factors_.back(), &cauchy_, pose, point,
+                                   lens_.values.data());
       } else {
         factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
-        problem_->AddResidualBlock(&factors_.back(), &loss_, pose, point);
+        problem_->AddResidualBlock(&factors_.back(), &cauchy_, pose, point);
       }
     }
     if (depths_.wanted()) add_depths();
@@ -227,9 +224,9 @@ class Adjustment {
     hold_unit();
     if (!rolling_factors_.empty()) {
       ordering_->AddElementToGroup(&readout_, kLensGroup);
-      problem_->AddResidualBlock(&readout_prior_, &firm_, &readout_);
+      problem_->AddResidualBlock(&readout_prior_, nullptr, &readout_);
     }
-    if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, &firm_, lens_.values.data());
+    if (refine_lens_) problem_->AddResidualBlock(&lens_prior_, nullptr, lens_.values.data());
   }
 
   // Pixels by which an instant shutter would have seen a keypoint elsewhere, were the readout one
@@ -323,8 +320,6 @@ class Adjustment {
   PlaneBlocks planes_;
   ObjectBlocks objects_;
   ceres::CauchyLoss cauchy_;
-  ceres::ScaledLoss loss_{&cauchy_, kCauchy, ceres::DO_NOT_TAKE_OWNERSHIP};
-  ceres::ScaledLoss firm_{nullptr, kFirm, ceres::DO_NOT_TAKE_OWNERSHIP};
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;

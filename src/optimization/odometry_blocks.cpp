@@ -1,14 +1,17 @@
 #include "cairn/optimization/odometry_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cairn {
 namespace {
 
-// Of the step from one keyframe to the next, as tracking had it: where many points say it, they say
-// it a hundred times better. Where few do, a wrong one must not tear the path.
-constexpr double kShareOfStep = 0.3, kTurnOfStep = 0.05;  // of its length; radians
-constexpr double kLongestStep = 2;                        // seconds
+// How unsure the way of a second is, as tracking had it; it grows with the square root of time, so
+// that a path is as firm with many keyframes as with few. Where many points say a step, they say it
+// a hundred times better; where few do, a wrong one must not tear the path.
+constexpr double kShareOfWay = 0.35;  // of the way that a camera goes in a second
+constexpr double kTurn = 0.12;        // radians
+constexpr double kLongestStep = 2;    // seconds
 
 }  // namespace
 
@@ -18,22 +21,27 @@ OdometryBlocks::OdometryBlocks(const Map& map) {
       [&](KeyframeId id, const Keyframe& k) { order.emplace_back(k.timestamp(), id); });
   std::sort(order.begin(), order.end());
   std::vector<SE3> measured;
+  std::vector<double> times;
+  double length = 0, time = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
-    if (order[i].first - order[i - 1].first > kLongestStep) continue;
+    const double dt = order[i].first - order[i - 1].first;
+    if (!(dt > 0 && dt <= kLongestStep)) continue;
     const KeyframeId a = order[i - 1].second, b = order[i].second;
     steps_.emplace_back(a, b);
     measured.push_back(map.keyframes()[a].T_wc.inverse() * map.keyframes()[b].T_wc);
+    times.push_back(dt);
+    length += measured.back().translation().norm();
+    time += dt;
   }
-  double usual = 0;
-  for (const SE3& T_ab : measured) usual += T_ab.translation().norm() / double(measured.size());
-  if (!(usual > 0)) {  // nothing has moved: no length says how sure it is
+  if (!(length > 0)) {  // nothing has moved: no length says how sure it is
     steps_.clear();
     return;
   }
-  // A camera may turn where it stands: no step is surer than the usual one lets it be.
-  for (const SE3& T_ab : measured) {
-    const double sigma = kShareOfStep * (usual + T_ab.translation().norm());
-    factors_.emplace_back(T_ab, sigma, kTurnOfStep);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    // A camera may turn where it stands: no step is surer than the usual speed lets it be.
+    const double speed = length / time + measured[i].translation().norm() / times[i];
+    const double root = std::sqrt(times[i]);
+    factors_.emplace_back(measured[i], kShareOfWay * speed * root, kTurn * root);
   }
 }
 
