@@ -15,6 +15,7 @@ BuriedKeyframe bury_keyframe(Map& map, KeyframeId id) {
     aligned[i] = point != nullptr && point->seen_from(id)->aligned();
   }
   buried.sightings = sightings_of(*keyframe.frame, keyframe.points, aligned);
+  buried.sightings.shrink_to_fit();  // kept to the end, by the thousand
   buried.last_birth = map.keyframes()[map.newest()].sequence;
   map.erase_keyframe(id);
   return buried;

@@ -20,28 +20,29 @@ OdometryBlocks::OdometryBlocks(const Map& map) {
   map.keyframes().for_each(
       [&](KeyframeId id, const Keyframe& k) { order.emplace_back(k.timestamp(), id); });
   std::sort(order.begin(), order.end());
-  std::vector<SE3> measured;
-  std::vector<double> times;
+  struct Measured {
+    KeyframeId a, b;
+    SE3 T_ab;
+    double dt;
+  };
+  std::vector<Measured> measured;
   double length = 0, time = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
     const double dt = order[i].first - order[i - 1].first;
     if (!(dt > 0 && dt <= kLongestStep)) continue;
     const KeyframeId a = order[i - 1].second, b = order[i].second;
-    steps_.emplace_back(a, b);
-    measured.push_back(map.keyframes()[a].T_wc.inverse() * map.keyframes()[b].T_wc);
-    times.push_back(dt);
-    length += measured.back().translation().norm();
+    const SE3 T_ab = map.keyframes()[a].T_wc.inverse() * map.keyframes()[b].T_wc;
+    measured.push_back({a, b, T_ab, dt});
+    length += T_ab.translation().norm();
     time += dt;
   }
-  if (!(length > 0)) {  // nothing has moved: no length says how sure it is
-    steps_.clear();
-    return;
-  }
-  for (std::size_t i = 0; i < measured.size(); ++i) {
+  if (!(length > 0)) return;  // nothing has moved: no length says how sure it is
+  for (const Measured& m : measured) {
     // A camera may turn where it stands: no step is surer than the usual speed lets it be.
-    const double speed = length / time + measured[i].translation().norm() / times[i];
-    const double root = std::sqrt(times[i]);
-    factors_.emplace_back(measured[i], kShareOfWay * speed * root, kTurn * root);
+    const double speed = length / time + m.T_ab.translation().norm() / m.dt;
+    const double root = std::sqrt(m.dt);
+    steps_.emplace_back(m.a, m.b);
+    factors_.emplace_back(m.T_ab, kShareOfWay * speed * root, kTurn * root);
   }
 }
 

@@ -77,10 +77,8 @@ TEST_F(FrameLogTest, AFrameIsWhereItSeesWhatItSaw) {
 TEST_F(FrameLogTest, AFrameThatWasAKeyframeIsWhereItSawWhatItSawAtLast) {
   Map seen = testing::true_map(
       world, std::vector<SE3>{along(0), along(0.4), along(0.6), along(0.8), along(1.2)});
-  KeyframeId id;
-  seen.keyframes().for_each([&](KeyframeId k, const Keyframe& keyframe) {
-    if (distance(keyframe.T_wc, along(0.6)) < 1e-9) id = k;
-  });
+  const KeyframeId id = testing::keyframes_of(seen)[2];
+  ASSERT_LT(distance(seen.keyframes()[id].T_wc, along(0.6)), 1e-9);
   const double timestamp = seen.keyframes()[id].timestamp();
   const std::vector<BuriedKeyframe> buried = {bury_keyframe(seen, id)};
   EXPECT_FALSE(seen.keyframes().contains(id));
