@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cairn/map/independent_pictures.h"
+
 namespace cairn {
 namespace {
 
@@ -25,9 +27,11 @@ constexpr int kCautiousFrames = 3;   // after a (re)start, search wider
 constexpr double kUnsureTilt = 0.3;  // radians: such a plane of the map holds nothing
 // Weights say how little a picture knows; a wall that is far off is still that wall.
 constexpr PlaneAssociationOptions kLoose = {.max_angle_deg = 45, .max_offset = 0.6};
-// What hands and vehicles do to a camera between two frames.
-constexpr double kAcceleration = 15;      // median depths a second squared
+// What hands and vehicles do to a camera between two frames. Where points cannot tell a turn from a
+// shift it is a turn: hands turn a camera within a frame, but do not throw it.
+constexpr double kAcceleration = 3;       // median depths a second squared
 constexpr double kTurnAcceleration = 30;  // radians a second squared
+constexpr double kLeastStep = 1e-3;       // seconds between frames, depths of a scene
 constexpr double kFrontalCosine = 0.998;
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth
@@ -115,11 +119,13 @@ const TrackedFrame* Tracker::track(std::shared_ptr<Frame> frame,
   adopt_view(view);
   support_.reset();
   SE3 T_wc = predict(frame->timestamp);
+  if (has_velocity_) support_ = {{}, expected_motion(T_wc, frame->timestamp)};
   current_points_.clear();  // none is known yet
   aligned_.assign(frame->size(), 0);
   unroll(*frame, T_wc);
   bool ok = track_motion(*frame, T_wc);
   if (!ok) {
+    support_.reset();
     T_wc = last_.T_wc;
     ok = track_reference(*frame, T_wc);
   }
@@ -178,7 +184,8 @@ bool Tracker::track_motion(const Frame& frame, SE3& T_wc) {
     if (search_by_projection(frame, expected_, {80, 0.9}, current_points_) >= kMinMatches) break;
   }
   SE3 pose = T_wc;
-  const int least = support_ ? options_.min_supported_inliers : options_.min_prediction_inliers;
+  const int least =
+      sees_planes() ? options_.min_supported_inliers : options_.min_prediction_inliers;
   if (adjust(frame, pose) < least) return false;
   T_wc = pose;
   return true;
@@ -206,7 +213,10 @@ PoseSupport Tracker::support(const SE3& T_wc, double timestamp,
     known.push_back(
         KnownPlane{plane.id, plane.plane, plane.outline, plane.sigma_tilt}.transformed(T_cw));
   }
-  PoseSupport support;
+  PoseSupport support{{}, expected_motion(T_wc, timestamp)};
+  // Each frame is held by them, and they err alike for many.
+  const double alike = std::sqrt(
+      std::max(kNetworkErrorsLast / std::max(timestamp - last_.frame->timestamp, kLeastStep), 1.0));
   for (const SeenPlane& metric : planes) {
     const SeenPlane seen = metric.scaled(map_->units_a_metre);
     const KnownPlane* plane = nearest_surface(seen, known, kLoose);
@@ -214,15 +224,21 @@ PoseSupport Tracker::support(const SE3& T_wc, double timestamp,
     support.planes.emplace_back(
         FactorForm::kRobust,
         PlaneMeasurement::isotropic(seen.plane.facing_origin().normal(), seen.centroid,
-                                    std::hypot(seen.sigma_angle, plane->sigma_tilt),
-                                    seen.sigma_offset),
+                                    alike * std::hypot(seen.sigma_angle, plane->sigma_tilt),
+                                    alike * seen.sigma_offset),
         plane->plane.transformed(T_wc));
   }
-  const double dt = timestamp - last_.frame->timestamp;
-  support.prior.T_wc = T_wc;
-  support.prior.sigma << Eigen::Vector3d::Constant(kAcceleration * dt * dt * map_->median_depth),
-      Eigen::Vector3d::Constant(kTurnAcceleration * dt * dt);
   return support;
+}
+
+// As surely as a camera goes on as it went: of little weight beside many points all over a picture.
+PosePrior Tracker::expected_motion(const SE3& T_wc, double timestamp) const {
+  const double dt = std::max(timestamp - last_.frame->timestamp, kLeastStep);
+  const double depth = std::max(map_->median_depth, kLeastStep);
+  PosePrior prior{T_wc};
+  prior.sigma << Eigen::Vector3d::Constant(kAcceleration * dt * dt * depth),
+      Eigen::Vector3d::Constant(kTurnAcceleration * dt * dt);
+  return prior;
 }
 
 // No usable motion: all points of the reference keyframe are compared by descriptor.
@@ -255,8 +271,8 @@ bool Tracker::track_local_map(Frame& frame, const Picture* picture, SE3& T_wc) {
   }
   expected_.clear();
   last_.visible.clear();
-  const bool astray = support_ && std::all_of(current_points_.begin(), current_points_.end(),
-                                              [](std::uint32_t p) { return p == kNoPoint; });
+  const bool astray = sees_planes() && std::all_of(current_points_.begin(), current_points_.end(),
+                                                   [](std::uint32_t p) { return p == kNoPoint; });
   const double widen = astray ? 4.0 : frames_since_start_ < kCautiousFrames ? 2.0 : 1.0;
   for (std::uint32_t i = 0; i < map_->points.size(); ++i) {
     const MapView::Point& p = map_->points[i];
@@ -275,7 +291,7 @@ bool Tracker::track_local_map(Frame& frame, const Picture* picture, SE3& T_wc) {
   }
   search_by_projection(frame, expected_, {100, 0.8}, current_points_);
   if (picture != nullptr) align(frame, *picture, T_cw);
-  const int least = support_ ? options_.min_supported_inliers : options_.min_inliers;
+  const int least = sees_planes() ? options_.min_supported_inliers : options_.min_inliers;
   return adjust(frame, T_wc, true) >= least;
 }
 
@@ -326,9 +342,9 @@ bool Tracker::wants_keyframe(bool mapper_idle) const {
   const bool long_ago = last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
   const bool weak = last_.inliers < options_.keyframe_ratio * map_->reference_tracked;
   // What is left over could become points of the map.
-  const bool starving = support_ && 2 * last_.inliers < int(last_.frame->size());
+  const bool starving = sees_planes() && 2 * last_.inliers < int(last_.frame->size());
   const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
-  if (last_.inliers < 15 && !support_) return false;
+  if (last_.inliers < 15 && !sees_planes()) return false;
   return (mapper_idle && moved && (weak || long_ago || starving)) || very_weak;
 }
 

@@ -82,6 +82,8 @@ class Tracker {
   void align(Frame& frame, const Picture& picture, const SE3& T_cw);
   PoseSupport support(const SE3& T_wc, double timestamp,
                       const std::vector<SeenPlane>& planes) const;
+  PosePrior expected_motion(const SE3& T_wc, double timestamp) const;
+  bool sees_planes() const { return support_ && !support_->planes.empty(); }
   int adjust(const Frame& frame, SE3& T_wc, bool unroll = false);
 
   View view_;
@@ -93,7 +95,7 @@ class Tracker {
   double velocity_seconds_ = 0;
   bool has_velocity_ = false;
   int frames_since_start_ = 0;
-  std::optional<PoseSupport> support_;  // of the present frame, where it needs some
+  std::optional<PoseSupport> support_;  // of the present frame: planes where it needs some
   double last_keyframe_time_ = 0;
 
   // Reused between frames.
