@@ -13,6 +13,7 @@
 #include "cairn/mapping/point_fusion.h"
 #include "cairn/mapping/size_scale.h"
 #include "cairn/mapping/upward.h"
+#include "cairn/optimization/odometry_blocks.h"
 
 namespace cairn {
 namespace {
@@ -164,16 +165,17 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (map_.keyframes().size() < 2) return {};
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
-  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort);
+  OdometryBlocks path(map_);  // one adjustment after the other must not lead away from it
+  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort, &path);
   if (options_.adjustment.estimate_readout) find_motions(map_);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
   if (fused > 0) align_points(map_, map_.newest());
   spdlog::info("full adjustment: {}; then {} points fused; readout {:.2f} ms", summary.to_string(),
                fused, 1000 * map_.readout_estimate());
-  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort);
+  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort, &path);
   if (options_.refine_lens) {
-    summary = adjust_fully(map_, options_.adjustment, true, abort);
+    summary = adjust_fully(map_, options_.adjustment, true, abort, &path);
   }
   remove_unconfirmed_planes(map_, options_.planes);  // points that were no good are gone by now
   settle_objects(map_, options_.objects);

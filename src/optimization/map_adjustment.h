@@ -9,6 +9,8 @@
 
 namespace cairn {
 
+class OdometryBlocks;
+
 struct AdjustmentOptions {
   int window = 30;  ///< keyframes moved by a local adjustment
   int fixed = 30;   ///< keyframes that hold it, at most
@@ -36,8 +38,9 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
 /// Adjusts everything; the first keyframe is held, and so is the unit of the map, and where points
 /// are few how keyframes lay to each other. Runs twice: once with all observations, once without
 /// those that the first run shows to be wrong. With `lens`, the correction of the lens is
-/// estimated, too.
+/// estimated, too. `path`: how keyframes lay to each other, as tracking had them; null: as they lie
+/// now.
 AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
-                               const std::atomic<bool>* abort);
+                               const std::atomic<bool>* abort, OdometryBlocks* path = nullptr);
 
 }  // namespace cairn

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cairn/optimization/odometry_blocks.h"
 #include "map/links.h"
 #include "map/point_world.h"
 
@@ -114,6 +115,40 @@ struct RollingWalk {
   std::vector<Vector6d> velocities;
   Map map{testing::point_view()};
 };
+
+// A walk of which the second half has drifted away, and shares no point with the first any more.
+void tear(Map& map, const SE3& drift) {
+  const std::vector<KeyframeId> ids = keyframes_of(map);
+  const auto is_late = [&](KeyframeId id) {
+    return std::find(ids.begin(), ids.end(), id) - ids.begin() >= std::ssize(ids) / 2;
+  };
+  std::vector<std::pair<PointId, KeyframeId>> links;
+  map.points().for_each([&](PointId id, MapPoint& p) {
+    const bool late = is_late(p.observations.front().keyframe);
+    for (const Observation& o : p.observations) {
+      if (is_late(o.keyframe) != late) links.emplace_back(id, o.keyframe);
+    }
+    if (late) p.position = drift * p.position;
+  });
+  for (const auto& [point, keyframe] : links) map.erase_observation(point, keyframe);
+  for (const KeyframeId id : ids) {
+    if (is_late(id)) map.keyframes()[id].T_wc = drift * map.keyframes()[id].T_wc;
+  }
+}
+
+double error_of_a_torn_walk(bool path_is_known) {
+  PointWorld world(38, {.noise = 0.2});
+  Map map = testing::true_map(world, walk(8, 0.25));
+  OdometryBlocks path(map);
+  tear(map, SE3(so3_exp({0, 0.1, 0}), {0.5, 0, 0}));
+  EXPECT_TRUE(adjust_fully(map, {}, false, nullptr, path_is_known ? &path : nullptr).usable);
+  return errors_of(map, world).camera;
+}
+
+TEST(FullAdjustment, LeadsBackToThePathThatItIsGiven) {
+  EXPECT_GT(error_of_a_torn_walk(false), 0.3);
+  EXPECT_LT(error_of_a_torn_walk(true), 0.3 * error_of_a_torn_walk(false));
+}
 
 TEST(FullAdjustment, FindsHowTheShutterRolls) {
   RollingWalk walk(0.025);
