@@ -17,6 +17,11 @@ namespace {
 constexpr std::size_t kMinPoints = 3;        // of a plane in the adjustment, that it takes part
 constexpr std::size_t kMaxHeldPoints = 200;  // outside of the adjustment, that hold a plane
 constexpr double kRadians = std::numbers::pi / 180;
+// Of a plane's spread, what is the surface's: the rest is errors of the points' own depths, of
+// which their observations know.
+constexpr double kOfSurface = 0.3;
+constexpr double kFlattest = 0.001;      // share of the viewing distance
+constexpr double kPointsToBeSure = 100;  // half as sure of it with so many
 
 }  // namespace
 
@@ -77,10 +82,16 @@ void PlaneBlocks::add_observations(Entry& entry) {
 void PlaneBlocks::add_points(Entry& entry) {
   const PlaneLandmark& landmark = map_.planes()[entry.id];
   double* reference = poses_->at(landmark.reference);
-  const double share = std::max(options_.point_on_plane.sigma, landmark.spread);
+  // How far from flat, by many points; where they are few a plane may be young, and not one.
+  const double usual = std::max(options_.point_on_plane.sigma, landmark.spread);
+  const double own = std::max(kFlattest, kOfSurface * landmark.spread);
+  const double n = double(std::count_if(landmark.points.begin(), landmark.points.end(),
+                                        [&](PointId p) { return !map_.points()[p].assumed; }));
+  const double flat =
+      std::sqrt((n * own * own + kPointsToBeSure * usual * usual) / (n + kPointsToBeSure));
   std::vector<PointId> outside;
   const auto add_point = [&](PointId id, double* position) {
-    const double sigma = share * map_.viewing_distance(id);
+    const double sigma = (map_.points()[id].assumed ? usual : flat) * map_.viewing_distance(id);
     add(std::make_unique<PointOnPlaneFactor>(sigma), losses_[1].get(),
         {reference, entry.values.data(), position});
   };
@@ -91,9 +102,9 @@ void PlaneBlocks::add_points(Entry& entry) {
       outside.push_back(id);
     }
   }
-  const std::size_t n = std::min(outside.size(), kMaxHeldPoints);
-  for (std::size_t i = 0; i < n; ++i) {
-    const PointId id = outside[i * outside.size() / n];
+  const std::size_t held = std::min(outside.size(), kMaxHeldPoints);
+  for (std::size_t i = 0; i < held; ++i) {
+    const PointId id = outside[i * outside.size() / held];
     add_point(id, held_point(id));
   }
 }

@@ -92,6 +92,26 @@ TEST(PlanesInAnAdjustment, ComeToTheTruthAndDoNotWorsenThePoses) {
   EXPECT_EQ(broken_planes(with), "");
 }
 
+// How far the first points of the wall lie off it after an adjustment (RMS), where so many are
+// known to be on it.
+double off_the_wall(std::size_t known) {
+  Map map = wall_map();
+  const PlaneId wall = testing::planes_of(map).at(0);
+  const auto ids = points_of(map);
+  for (std::size_t i = known; i < kOnWall; ++i) map.set_plane_of(ids[i], {});
+  EXPECT_TRUE(adjust_fully(map, {}, false, nullptr).usable);
+  double sum = 0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double d = map.plane_in_world(wall).signed_distance(map.points()[ids[i]].position);
+    sum += d * d / 20;
+  }
+  return std::sqrt(sum);
+}
+
+TEST(PlanesInAnAdjustment, ManyPointsSayHowFlatASurfaceIs) {
+  EXPECT_LT(off_the_wall(kOnWall), 0.9 * off_the_wall(20));
+}
+
 TEST(PlanesInAnAdjustment, OfPointsAloneOrOfObservationsAloneComeToTheTruth) {
   for (const bool by_points : {true, false}) {
     Map map = wall_map();
