@@ -33,7 +33,7 @@ struct PosePrior {
   Vector6d sigma = Vector6d::Ones();
 };
 
-/// What holds a pose where points are few.
+/// What holds a pose beside its points: the motion so far, and planes where points are few.
 struct PoseSupport {
   std::deque<FixedPlaneObservationFactor> planes;  ///< robust: 2 σ and more count linearly
   PosePrior prior;
