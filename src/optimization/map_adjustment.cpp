@@ -1,7 +1,6 @@
 #include "cairn/optimization/map_adjustment.h"
 
 #include <ceres/ceres.h>
-#include <ceres/normal_prior.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +35,21 @@ constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 
 // What drifted is far from where its points would hold it: the first fit has a wider core.
 constexpr double kFirstWidth = 5;
 
+// (x - expected) / σ of one number. Ceres has such a prior, of matrices that it allocates itself:
+// built with other flags, they must not be freed here.
+class NumberPrior : public ceres::SizedCostFunction<1, 1> {
+ public:
+  NumberPrior(double expected, double sigma) : expected_(expected), inverse_sigma_(1 / sigma) {}
+  bool Evaluate(const double* const* x, double* e, double** jacobians) const override {
+    e[0] = inverse_sigma_ * (x[0][0] - expected_);
+    if (jacobians != nullptr && jacobians[0] != nullptr) jacobians[0][0] = inverse_sigma_;
+    return true;
+  }
+
+ private:
+  double expected_, inverse_sigma_;
+};
+
 // A part of the map as a least-squares problem: contiguous parameters, filled from the map, written
 // back to it.
 class Adjustment {
@@ -49,8 +63,7 @@ class Adjustment {
         lens_(map.lens()),
         estimate_readout_(options.estimate_readout && !refine_lens),
         readout_(map.readout_estimate()),
-        readout_prior_(ceres::Matrix::Constant(1, 1, 1 / (full ? kReadoutSigma : kReadoutStep)),
-                       ceres::Vector::Constant(1, full ? 0.0 : map.readout_estimate())),
+        readout_prior_(full ? 0 : map.readout_estimate(), full ? kReadoutSigma : kReadoutStep),
         keyframes_(std::move(free)),
         points_(std::move(points)),
         depths_(map, options.planes.predicted_depth),
@@ -303,7 +316,7 @@ class Adjustment {
   LensCorrection lens_;
   bool estimate_readout_;
   double readout_;
-  ceres::NormalPrior readout_prior_;
+  NumberPrior readout_prior_;
   std::vector<KeyframeId> keyframes_;  // the free ones first
   std::size_t free_count_ = 0;
   std::vector<PointId> points_;

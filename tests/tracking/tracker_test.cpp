@@ -14,12 +14,17 @@ using testing::PointWorld;
 constexpr double kFrame = 1 / 30.0;  // seconds
 constexpr double kStep = 0.02;       // along the walk, a frame
 
+// Keyframes along the walk.
+std::vector<SE3> some_poses() {
+  std::vector<SE3> poses(6);
+  for (int i = 0; i < 6; ++i) poses[i] = along(0.3 * i);
+  return poses;
+}
+
 class TrackerTest : public ::testing::Test {
  protected:
   TrackerTest() {
-    std::vector<SE3> poses;
-    for (int i = 0; i < 6; ++i) poses.push_back(along(0.3 * i));
-    map = testing::true_map(world, poses);
+    map = testing::true_map(world, some_poses());
     view = make_view(map, testing::keyframes_of(map)[0], 100000, 1);
     at(0);
     tracker.start_from(frame, along(0), view, testing::true_points(world, map, *frame));
@@ -69,9 +74,7 @@ SE3 shaken(double s) {
 // Mean error in degrees of a camera whose shutter rolls, where the map says that it does so.
 double error_of_a_rolling_camera(double assumed) {
   PointWorld world(43, {.noise = 0.3, .readout = 0.03});
-  std::vector<SE3> poses;
-  for (int i = 0; i < 6; ++i) poses.push_back(along(0.3 * i));
-  const Map map = testing::true_map(world, poses);
+  const Map map = testing::true_map(world, some_poses());
   auto view = std::make_shared<MapView>(*make_view(map, testing::keyframes_of(map)[0], 100000, 1));
   view->readout = assumed;
   Tracker tracker(point_view(), {});
@@ -155,9 +158,7 @@ std::shared_ptr<Frame> through_a_hole(const Frame& whole, double half_width) {
 // RMS distance from the truth of a camera that looks through a hole for a second.
 double error_behind_a_hole(std::uint64_t seed) {
   PointWorld world(seed);
-  std::vector<SE3> poses;
-  for (int i = 0; i < 6; ++i) poses.push_back(along(0.3 * i));
-  const Map map = testing::true_map(world, poses);
+  const Map map = testing::true_map(world, some_poses());
   const auto view = make_view(map, testing::keyframes_of(map)[0], 100000, 1);
   Tracker tracker(point_view(), {});
   const auto first = world.show(along(0), 0);
