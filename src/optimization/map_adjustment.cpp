@@ -415,7 +415,8 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
 AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
                                const std::atomic<bool>* abort, OdometryBlocks* path) {
   AdjustmentSummary summary;
-  OdometryBlocks now(map);
+  std::optional<OdometryBlocks> now;
+  if (path == nullptr) path = &now.emplace(map);
   double initial_rms = 0;
   for (int round = 0; round < 2; ++round) {
     std::vector<KeyframeId> free, fixed;
@@ -426,7 +427,7 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool 
     if (free.empty() || points.empty()) return summary;
     Adjustment adjustment(map, std::move(free), std::move(fixed), std::move(points), options,
                           round == 0 ? kFirstWidth : 1, true, lens);
-    adjustment.hold_steps(path != nullptr ? *path : now);
+    adjustment.hold_steps(*path);
     const int outliers = summary.outliers;
     summary = adjustment.solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;

@@ -31,7 +31,8 @@ constexpr PlaneAssociationOptions kLoose = {.max_angle_deg = 45, .max_offset = 0
 // shift it is a turn: hands turn a camera within a frame, but do not throw it.
 constexpr double kAcceleration = 3;       // median depths a second squared
 constexpr double kTurnAcceleration = 30;  // radians a second squared
-constexpr double kLeastStep = 1e-3;       // seconds between frames, depths of a scene
+constexpr double kLeastStep = 1e-3;       // seconds between frames
+constexpr double kLeastDepth = 1e-3;      // of a scene
 constexpr double kFrontalCosine = 0.998;
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth
@@ -79,6 +80,11 @@ SE3 Tracker::predict(double timestamp) const {
   const double dt = timestamp - last_.frame->timestamp;
   if (std::abs(dt - velocity_seconds_) < 1e-3) return last_.T_wc * velocity_;
   return last_.T_wc * SE3::exp(velocity_.log() * (dt / velocity_seconds_));
+}
+
+// Seconds since the last frame.
+double Tracker::step_to(double timestamp) const {
+  return std::max(timestamp - last_.frame->timestamp, kLeastStep);
 }
 
 // Of the camera since the last frame, should it be at T_wc; none where that was too long ago.
@@ -215,8 +221,7 @@ PoseSupport Tracker::support(const SE3& T_wc, double timestamp,
   }
   PoseSupport support{{}, expected_motion(T_wc, timestamp)};
   // Each frame is held by them, and they err alike for many.
-  const double alike = std::sqrt(
-      std::max(kNetworkErrorsLast / std::max(timestamp - last_.frame->timestamp, kLeastStep), 1.0));
+  const double alike = std::sqrt(std::max(kNetworkErrorsLast / step_to(timestamp), 1.0));
   for (const SeenPlane& metric : planes) {
     const SeenPlane seen = metric.scaled(map_->units_a_metre);
     const KnownPlane* plane = nearest_surface(seen, known, kLoose);
@@ -233,8 +238,8 @@ PoseSupport Tracker::support(const SE3& T_wc, double timestamp,
 
 // As surely as a camera goes on as it went: of little weight beside many points all over a picture.
 PosePrior Tracker::expected_motion(const SE3& T_wc, double timestamp) const {
-  const double dt = std::max(timestamp - last_.frame->timestamp, kLeastStep);
-  const double depth = std::max(map_->median_depth, kLeastStep);
+  const double dt = step_to(timestamp);
+  const double depth = std::max(map_->median_depth, kLeastDepth);
   PosePrior prior{T_wc};
   prior.sigma << Eigen::Vector3d::Constant(kAcceleration * dt * dt * depth),
       Eigen::Vector3d::Constant(kTurnAcceleration * dt * dt);

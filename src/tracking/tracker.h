@@ -71,6 +71,7 @@ class Tracker {
  private:
   void adopt_view(const std::shared_ptr<const MapView>& view);
   SE3 predict(double timestamp) const;
+  double step_to(double timestamp) const;
   Vector6d velocity_at(double timestamp, const SE3& T_wc) const;
   void unroll(Frame& frame, const SE3& T_wc);
   void unroll_observations(const Frame& frame, const SE3& T_wc);
