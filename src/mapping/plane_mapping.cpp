@@ -96,10 +96,30 @@ double spread(const Map& map, PlaneId id) {
   return off.empty() ? 1 : robust_sigma(off);
 }
 
+double angle_off(PlaneRelation relation, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double cosine = std::min(std::abs(a.dot(b)), 1.0);
+  return relation == PlaneRelation::kParallel ? std::acos(cosine) : std::asin(cosine);
+}
+
+// Labels say how two planes stand to each other. By far not so: one of the two is a phantom, or has
+// a wrong label. Pictures vote, its own for it.
+bool denied_by_labels(const Map& map, PlaneId id) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  const Eigen::Vector3d normal = map.plane_in_world(id).normal();
+  std::size_t yes = landmark.sightings, no = 0;
+  map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
+    const auto implied = implied_relation(landmark.label(), known.label());
+    if (other == id || !known.confirmed || !implied) return;
+    const double off = angle_off(*implied, normal, map.plane_in_world(other).normal());
+    (off < kMaxImplied ? yes : no) += known.sightings;
+  });
+  return no > yes;
+}
+
 // A ceiling or a wall without a mark on it: no point says where it lies, nor that it does not. With
 // Manhattan relations the others say how it stands, and many pictures how far off it is.
 bool is_bare_surface(const PlaneLandmark& landmark, const PlaneMappingOptions& options) {
-  return options.manhattan && landmark.judges < options.min_points &&
+  return options.manhattan && !landmark.denied && landmark.judges < options.min_points &&
          static_cast<int>(landmark.sightings) >= options.min_sightings &&
          landmark.sigma_tilt <= kMaxTiltOfBare &&
          (is_level(landmark.label()) || is_upright(landmark.label()));
@@ -109,7 +129,7 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
   const PlaneLandmark& landmark = map.planes()[id];
   const auto measured = std::count_if(landmark.points.begin(), landmark.points.end(),
                                       [&](PointId p) { return !map.points()[p].assumed; });
-  return static_cast<int>(landmark.sightings) >= options.min_sightings &&
+  return !landmark.denied && static_cast<int>(landmark.sightings) >= options.min_sightings &&
          landmark.independent >= kMinIndependent &&
          static_cast<int>(measured) >= options.min_points &&
          landmark.sigma_tilt <= options.max_tilt_sigma_deg * kRadians &&
@@ -120,9 +140,10 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
 void log_plane(PlaneId id, const PlaneLandmark& landmark, const char* fate) {
   spdlog::debug(
       "plane {} ({}): {} pictures, {:.2f} of all, {} points, {:.2f} of all, spread {:.4f}, tilt "
-      "{:.1f} deg: {}",
+      "{:.1f} deg{}: {}",
       int(id.slot), landmark.label(), landmark.sightings, landmark.detected, landmark.points.size(),
-      landmark.share, landmark.spread, landmark.sigma_tilt / kRadians, fate);
+      landmark.share, landmark.spread, landmark.sigma_tilt / kRadians,
+      landmark.denied ? ", denied by labels" : "", fate);
 }
 
 void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
@@ -145,6 +166,7 @@ void update_evidence(Map& map, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
     refine_landmark(map, id, options.association.point_sigma, options.manhattan);
     landmark.spread = spread(map, id);
+    landmark.denied = denied_by_labels(map, id);
     landmark.confirmed = confirmed(map, id, options);
   });
 }
@@ -173,14 +195,12 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
   map.relations().clear();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t k = i + 1; k < planes.size(); ++k) {
-      const double cosine = std::min(std::abs(planes[i].normal.dot(planes[k].normal)), 1.0);
       const double sigma = std::hypot(planes[i].sigma, planes[k].sigma);
       const bool drifted = is_upright(planes[i].label) && is_upright(planes[k].label) &&
                            !seen_together(map.planes()[planes[i].id], map.planes()[planes[k].id]);
       const auto implied = implied_relation(planes[i].label, planes[k].label);
       for (const auto relation : {PlaneRelation::kParallel, PlaneRelation::kPerpendicular}) {
-        const double off =
-            relation == PlaneRelation::kParallel ? std::acos(cosine) : std::asin(cosine);
+        const double off = angle_off(relation, planes[i].normal, planes[k].normal);
         const bool held = std::any_of(before.begin(), before.end(), [&](const RelatedPlanes& r) {
           return r.a == planes[i].id && r.b == planes[k].id && r.relation == relation;
         });

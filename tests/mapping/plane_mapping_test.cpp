@@ -168,6 +168,26 @@ TEST_F(MapPlanesOfPictures, LabelsBindWhatDriftHasTurned) {
   }
 }
 
+// Upright, before a wall and a floor.
+TEST_F(MapPlanesOfPictures, WhatStandsAsItsLabelCannotStaysOutOfTheMap) {
+  const auto board = rectangle({-0.8, -0.8, 2.9}, {1.2, 0, 0}, {0, 1.2, 0});
+  const auto on_board = grid_on(board, 6);
+  points.resize(72);
+  points.insert(points.end(), on_board.begin(), on_board.end());
+  for (const std::string label : {"cabinet", "wall", "table"}) {
+    map = map_of(points, few_poses(6));
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(points.size(), 1);  // looked at
+      KeyframePerception seen = perceive(map, id, {wall_corners(), floor, board}, 36, 5, 0.04);
+      const std::array<std::string, 3> labels = {"wall", "floor", label};
+      for (std::size_t i : {0, 1, 2}) seen.planes[i].label = labels[i];
+      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+    }
+    remove_unconfirmed_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(label == "table" ? 2 : 3)) << label;
+  }
+}
+
 // 8 degrees from square: what one picture shows is so, what none shows together may have drifted.
 TEST_F(MapPlanesOfPictures, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrift) {
   const auto side = rectangle({0.8, -1, 2.6}, {0, 1.4, 0}, {0.17, 0, 1.2});
