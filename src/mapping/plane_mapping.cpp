@@ -96,21 +96,21 @@ double spread(const Map& map, PlaneId id) {
   return off.empty() ? 1 : robust_sigma(off);
 }
 
-double angle_off(PlaneRelation relation, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double cosine = std::min(std::abs(a.dot(b)), 1.0);
-  return relation == PlaneRelation::kParallel ? std::acos(cosine) : std::asin(cosine);
+double angle_off(PlaneRelation relation, const Plane& a, const Plane& b) {
+  const double angle = angle_between(a, b);
+  return relation == PlaneRelation::kParallel ? angle : std::numbers::pi / 2 - angle;
 }
 
 // Labels say how two planes stand to each other. By far not so: one of the two is a phantom, or has
 // a wrong label. Pictures vote, its own for it.
 bool denied_by_labels(const Map& map, PlaneId id) {
   const PlaneLandmark& landmark = map.planes()[id];
-  const Eigen::Vector3d normal = map.plane_in_world(id).normal();
+  const Plane plane = map.plane_in_world(id);
   std::size_t yes = landmark.sightings, no = 0;
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     const auto implied = implied_relation(landmark.label(), known.label());
     if (other == id || !known.confirmed || !implied) return;
-    const double off = angle_off(*implied, normal, map.plane_in_world(other).normal());
+    const double off = angle_off(*implied, plane, map.plane_in_world(other));
     (off < kMaxImplied ? yes : no) += known.sightings;
   });
   return no > yes;
@@ -182,14 +182,14 @@ bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b) {
 void relate_planes(Map& map, const PlaneMappingOptions& options) {
   struct Sure {
     PlaneId id;
-    Eigen::Vector3d normal;
+    Plane plane;
     double sigma;
     std::string label;
   };
   std::vector<Sure> planes;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     if (!confirmed(map, id, options)) return;
-    planes.push_back({id, map.plane_in_world(id).normal(), landmark.sigma_tilt, landmark.label()});
+    planes.push_back({id, map.plane_in_world(id), landmark.sigma_tilt, landmark.label()});
   });
   const std::vector<RelatedPlanes> before = std::move(map.relations());
   map.relations().clear();
@@ -200,7 +200,7 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
                            !seen_together(map.planes()[planes[i].id], map.planes()[planes[k].id]);
       const auto implied = implied_relation(planes[i].label, planes[k].label);
       for (const auto relation : {PlaneRelation::kParallel, PlaneRelation::kPerpendicular}) {
-        const double off = angle_off(relation, planes[i].normal, planes[k].normal);
+        const double off = angle_off(relation, planes[i].plane, planes[k].plane);
         const bool held = std::any_of(before.begin(), before.end(), [&](const RelatedPlanes& r) {
           return r.a == planes[i].id && r.b == planes[k].id && r.relation == relation;
         });
