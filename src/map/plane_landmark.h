@@ -65,9 +65,11 @@ struct PlaneLandmark {
   std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
   // Evidence, kept by mapping.
   double sigma_tilt = 3.2;  ///< of its normal, radians
-  int judges = 0;           ///< points in its masks whose depth is sure enough to tell
-  double share = 0;         ///< of these, those that lie on it
-  double detected = 0;      ///< share of the keyframes that see its points in which it was detected
+  /// Points in its masks whose depth is sure enough to tell; those before it count a sixth.
+  double judges = 0;
+  double share = 0;  ///< of these, those that lie on it
+  /// Share of the keyframes that see its points in which it was detected; 1 where none sees enough.
+  double detected = 0;
   /// How far its points lie off it, robustly (1.48 times the median), as a share of their viewing
   /// distance: surfaces are not flat, and things lie on them.
   double spread = 1;

@@ -22,6 +22,8 @@ constexpr std::size_t kManyPoints = 20;
 constexpr int kWellSeen = 3;    // points of a plane, that a picture should show it
 constexpr double kPixel = 0.7;  // of where a keypoint is, over all its observations
 constexpr double kUnsure = 2;   // points much less sure than surfaces are flat say nothing
+// Things stand before surfaces, and masks are rough; what is behind a surface is hidden by it.
+constexpr double kOfThingsBefore = 1.0 / 6;
 
 // In the world. Its depth is as sure as the rays of its observations are apart.
 PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
@@ -112,7 +114,7 @@ double detection_rate(const Map& map, const PlaneLandmark& landmark) {
     ++chances;
     detections += landmark.seen_by(keyframe);
   }
-  return chances > 0 ? double(detections) / chances : 0;
+  return chances > 0 ? double(detections) / chances : 1;  // none denies it
 }
 
 double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan) {
@@ -125,20 +127,28 @@ double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan
   return std::hypot(kMinTiltSigma, normal_sigma(map, id, fit, evidence));
 }
 
-struct PointsOnPlane {
+// Points whose depth is sure enough to tell.
+struct SortedPoints {
   std::vector<PointId> on;
-  int sure = 0;  // of all, those whose depth is sure enough to tell
+  int before = 0, behind = 0;
 };
 
-PointsOnPlane points_on(const Map& map, const Plane& plane, const std::vector<PointId>& points,
-                        double point_sigma) {
-  PointsOnPlane result;
+SortedPoints sort_points(const Map& map, PlaneId id, const std::vector<PointId>& points,
+                         double point_sigma) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
+  const Plane plane = landmark.plane.facing_origin().transformed(T_wr);  // positive: before it
+  SortedPoints result;
   for (const PointId p : points) {
     const PlanePoint point = plane_point(map, p, point_sigma);
     const double sigma = point.sigma_off(plane);
     if (sigma > kUnsure * point.sigma) continue;
-    ++result.sure;
-    if (std::abs(plane.signed_distance(point.position)) < kGate * sigma) result.on.push_back(p);
+    const double off = plane.signed_distance(point.position);
+    if (std::abs(off) < kGate * sigma) {
+      result.on.push_back(p);
+    } else {
+      ++(off > 0 ? result.before : result.behind);
+    }
   }
   return result;
 }
@@ -213,13 +223,13 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   } else {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
-  const Plane plane = map.plane_in_world(id);
-  const auto [on, sure] = points_on(map, plane, seen, point_sigma);
-  landmark.judges = sure;
-  landmark.share = sure > 0 ? double(on.size()) / sure : 0;
+  const auto [on, before, behind] = sort_points(map, id, seen, point_sigma);
+  const double there = double(on.size());
+  landmark.judges = there + behind + kOfThingsBefore * before;
+  landmark.share = on.empty() ? 0 : there / landmark.judges;
   // Of a plane that is well known those at the rims are told from what stands in front.
   const bool well_known = landmark.sigma_tilt < kWellKnown;
-  set_members(map, id, well_known ? points_on(map, plane, with_rim, point_sigma).on : on);
+  set_members(map, id, well_known ? sort_points(map, id, with_rim, point_sigma).on : on);
   landmark.detected = detection_rate(map, landmark);
   map.update_outline(id);
 }

@@ -264,6 +264,7 @@ TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSur
     }
     return id;
   };
+  for (int i = 0; i < 6; ++i) points.emplace_back(0.2 * i - 0.5, 0.1 * i - 0.2, 5);
   map = map_of(points, few_poses(6));
   for (const KeyframeId id : keyframes_of(map)) {
     map.keyframes()[id].depth.assign(points.size(), 1);  // looked at
@@ -272,7 +273,7 @@ TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSur
   add(6, {2, 3, 32, 33});                                  // few points
   add(4, {6, 7, 10, 11, 24, 25, 28, 29});                  // few pictures
   add(6, {12, 13, 14, 15, 16, 17});                        // on a line
-  add(6, {8, 9, 26, 27, 20, 21, 72, 73, 74, 75, 76, 77});  // half of them in front of it
+  add(6, {8, 9, 26, 27, 20, 21, 78, 79, 80, 81, 82, 83});  // half of them behind it
   remove_unconfirmed_planes(map, options);
   EXPECT_THAT(planes_of(map), ElementsAre(sure));
   EXPECT_EQ(broken_planes(map), "");

@@ -244,6 +244,23 @@ TEST_F(RefineLandmark, ShowsInHowManyOfThePicturesOfItsPointsItWasDetected) {
   EXPECT_NEAR(landmark(see_wall(1, {wall}, {wall})).detected, 1.0 / 3, 1e-9);
 }
 
+TEST_F(RefineLandmark, IsDetectedWhereNoPictureShowsEnoughOfItsPointsToDenyIt) {
+  EXPECT_EQ(landmark(see_wall(3, {{}}, {{}})).detected, 1);
+}
+
+// Of 24 points of the wall and 12 others its mask shows all.
+TEST_F(RefineLandmark, ThingsBeforeItSayLessAgainstItThanWhatIsBehindIt) {
+  const auto share_with_others_at = [&](double z) {
+    std::vector<Eigen::Vector3d> some = grid_on(wall_corners(), 6);
+    for (std::size_t i = 0; i < some.size(); i += 3) some[i].z() = z + 0.02 * double(i % 4);
+    map = map_of(some, few_poses(3));
+    return landmark(see_wall(3, {indices(0, 36)}, {indices(0, 36)})).share;
+  };
+  const double before = share_with_others_at(3.5), behind = share_with_others_at(4.5);
+  EXPECT_NEAR(behind, 24.0 / 36, 1e-9);
+  EXPECT_NEAR(before, 24.0 / 26, 1e-9);
+}
+
 TEST_F(RefineLandmark, ATiltIsSurerWithMoreAndWiderPoints) {
   const auto tilt = [&](const std::vector<std::uint32_t>& inside) {
     return landmark(see_wall(1, {inside}, {inside})).sigma_tilt;
