@@ -26,6 +26,7 @@ constexpr double kEnough = 1e-5;              // a smaller relative gain ends it
 constexpr double kLeastDamping = 1e-6;        // of the largest diagonal number
 constexpr double kLeastConditioning = 1e-13;  // of a normal matrix with a diagonal of ones
 constexpr double kSigmaRotation = 1;          // radians: turned by half a turn it is the same
+constexpr double kNoBox = 1000;               // σ: that a view errs where the thing has no outline
 
 bool is_finite(const Ellipsoid& e) { return e.T.is_finite() && e.semi_axes.allFinite(); }
 
@@ -76,8 +77,10 @@ class Problem {
  private:
   double robust_cost(const Ellipsoid& e, const BoxView& view, NormalEquations* normal) const {
     BoxByEllipsoid J;
+    const double width = options_.loss * options_.loss;
     const auto box = prediction(e, view, normal ? &J : nullptr);
-    if (!box) return kInfinite;
+    // A guess of a table may reach behind a camera above it: the other views mend that.
+    if (!box) return view.weight * width * std::log1p(kNoBox * kNoBox / width);
     Vector4d error = (box->edges() - view.box.edges()) / view.sigma;
     for (int i = 0; i < 4; ++i) {
       // The thing goes on beyond a cut edge; how far, the picture does not say.
@@ -85,7 +88,7 @@ class Problem {
       error[i] = 0;
       if (normal) J.row(i).setZero();
     }
-    const double width = options_.loss * options_.loss, ratio = error.squaredNorm() / width;
+    const double ratio = error.squaredNorm() / width;
     if (normal) {
       J /= view.sigma;
       normal->add<4>(view.weight / (1 + ratio), J, error);

@@ -161,6 +161,21 @@ TEST(ObjectFit, TakesABallWhoseTurnNoBoxShows) {
   EXPECT_NEAR(fit.cost, 0, 1e-9);
 }
 
+// As of a table that one picture is taken above of.
+TEST(ObjectFit, FindsAThingFromAStartThatReachesBehindACamera) {
+  auto views = views_of(100);
+  BoxView near = views[5];
+  near.T_cw = looking({0.5, 0.1, 0.3}, Vector3d::Zero());
+  near.box = *projected_box(kCamera, {near.T_cw * kTruth.T, kTruth.semi_axes});
+  views.push_back(near);
+  const Ellipsoid start{kStart.T, Vector3d::Constant(0.8)};
+  ASSERT_FALSE(projected_box(kCamera, {near.T_cw * start.T, start.semi_axes}));
+  const ObjectFit fit = fit_object(start, views, kCamera, kNoPrior);
+  EXPECT_TRUE(fit.usable) << fit.to_string();
+  EXPECT_EQ(fit.agreeing, 13);
+  EXPECT_GT(overlap(fit), 0.95) << fit.to_string();
+}
+
 TEST(ObjectFit, IsNotUsableFromAStartThatIsNone) {
   const ObjectPrior prior{.usual = 0.15};
   const auto views = views_of(60);
