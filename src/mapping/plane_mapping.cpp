@@ -24,6 +24,7 @@ constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
 constexpr double kIndependentOfBare = 3;       // pictures that a surface without points must have
 constexpr double kProbationOfBare = 30;        // seconds
 constexpr double kMaxTiltOfBare = 2.5 * kRadians;
+constexpr double kShareOfBare = 0.5;  // of the points in its masks, where there is one that tells
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
   return static_cast<int>(
@@ -117,9 +118,12 @@ bool denied_by_labels(const Map& map, PlaneId id) {
 }
 
 // A ceiling or a wall without a mark on it: no point says where it lies, nor that it does not. With
-// Manhattan relations the others say how it stands, and many pictures how far off it is.
+// Manhattan relations the others say how it stands, and many pictures how far off it is. The few
+// points that can tell must not deny it.
 bool is_bare_surface(const PlaneLandmark& landmark, const PlaneMappingOptions& options) {
-  return options.manhattan && !landmark.denied && landmark.judges < options.min_points &&
+  const bool points_agree = landmark.judges < 1 || landmark.share >= kShareOfBare;
+  return options.manhattan && !landmark.denied && points_agree &&
+         landmark.judges < options.min_points &&
          static_cast<int>(landmark.sightings) >= options.min_sightings &&
          landmark.sigma_tilt <= kMaxTiltOfBare &&
          (is_level(landmark.label()) || is_upright(landmark.label()));

@@ -213,10 +213,20 @@ TEST_F(MapPlanesOfPictures, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrif
   }
 }
 
-// No keypoint is on it: with the others well known, many pictures say where it is.
+// No keypoint is on it: with the others well known, many pictures say where it is, unless its masks
+// are full of what is elsewhere.
 TEST_F(MapPlanesOfPictures, OfABareCeilingManyPicturesAreEnoughWhereTheWorldIsManhattan) {
   const auto ceiling = rectangle({-1, -1, 2.7}, {2, 0, 0}, {0, 0, 1.2});
-  for (const auto& [manhattan, pictures] : {std::pair{true, 12}, {true, 3}, {false, 12}}) {
+  struct Case {
+    bool manhattan;
+    int pictures;
+    std::uint32_t others;  // points in its masks
+    bool known;
+  };
+  for (const auto& [manhattan, pictures, others, known] : {Case{true, 12, 0, true},
+                                                           {true, 3, 0, false},
+                                                           {false, 12, 0, false},
+                                                           {true, 12, 6, false}}) {
     options.manhattan = manhattan;
     map = map_of(points, few_poses(12));
     int shown = 0;
@@ -225,14 +235,13 @@ TEST_F(MapPlanesOfPictures, OfABareCeilingManyPicturesAreEnoughWhereTheWorldIsMa
       KeyframePerception seen = perceive(map, id, {wall_corners(), floor, ceiling}, 36, 1, 0.02);
       const std::array<std::string, 3> labels = {"wall", "floor", "ceiling"};
       for (std::size_t i : {0, 1, 2}) seen.planes[i].label = labels[i];
-      seen.planes[2].keypoints.clear();
-      seen.planes[2].inner.clear();
+      seen.planes[2].keypoints = seen.planes[2].inner = indices(72, others);
       if (++shown > pictures) seen.planes.pop_back();
       map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
     }
     remove_unconfirmed_planes(map, options);
-    const bool known = manhattan && pictures > 5;
-    ASSERT_THAT(planes_of(map), SizeIs(known ? 3 : 2)) << manhattan << ", " << pictures;
+    ASSERT_THAT(planes_of(map), SizeIs(known ? 3 : 2))
+        << manhattan << ", " << pictures << ", " << others;
     if (!known) continue;
     const Plane truth = Plane::through({0, -1, 3}, Eigen::Vector3d::UnitY());
     EXPECT_THAT(map.plane_in_world(planes_of(map)[2]), IsNearPlane(truth, 2, 0.05));
