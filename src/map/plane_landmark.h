@@ -65,7 +65,7 @@ struct PlaneLandmark {
   std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
   // Evidence, kept by mapping.
   double sigma_tilt = 3.2;  ///< of its normal, radians
-  /// Points in its masks whose depth is sure enough to tell; those before it count a sixth.
+  /// Points in its masks whose depth is sure enough to tell; those before it count half.
   double judges = 0;
   double share = 0;  ///< of these, those that lie on it
   /// Share of the keyframes that see its points in which it was detected; 1 where none sees enough.

@@ -23,7 +23,7 @@ constexpr int kWellSeen = 3;    // points of a plane, that a picture should show
 constexpr double kPixel = 0.7;  // of where a keypoint is, over all its observations
 constexpr double kUnsure = 2;   // points much less sure than surfaces are flat say nothing
 // Things stand before surfaces, and masks are rough; what is behind a surface is hidden by it.
-constexpr double kOfThingsBefore = 1.0 / 6;
+constexpr double kOfThingsBefore = 0.5;
 
 // In the world. Its depth is as sure as the rays of its observations are apart.
 PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {

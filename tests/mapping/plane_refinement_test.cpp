@@ -258,7 +258,7 @@ TEST_F(RefineLandmark, ThingsBeforeItSayLessAgainstItThanWhatIsBehindIt) {
   };
   const double before = share_with_others_at(3.5), behind = share_with_others_at(4.5);
   EXPECT_NEAR(behind, 24.0 / 36, 1e-9);
-  EXPECT_NEAR(before, 24.0 / 26, 1e-9);
+  EXPECT_NEAR(before, 24.0 / 30, 1e-9);
 }
 
 TEST_F(RefineLandmark, ATiltIsSurerWithMoreAndWiderPoints) {
