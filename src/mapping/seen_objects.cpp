@@ -40,11 +40,9 @@ std::vector<SeenObject> see_objects(std::span<const DetectedObject> detected, co
     if (!box || !box->valid()) continue;
     SeenObject seen;
     seen.box = *box;
-    seen.cut = {d.box
-                    .x0<picture.x0 + kBorder,
-                        d.box.y0<picture.y0 + kBorder, d.box.x1> picture.x1 - kBorder, d.box.y1>
-                        picture.y1 -
-                kBorder};
+    const bool left = d.box.x0 < picture.x0 + kBorder, top = d.box.y0 < picture.y0 + kBorder;
+    const bool right = d.box.x1 > picture.x1 - kBorder, bottom = d.box.y1 > picture.y1 - kBorder;
+    seen.cut = {left, top, right, bottom};
     seen.sigma = std::hypot(kEdgeFloor, kEdgeShare * (box->width() + box->height()) / 2);
     seen.class_name = d.class_name;
     seen.score = d.score;
