@@ -7,9 +7,9 @@
 namespace cairn {
 namespace {
 
-// What detectors' edges err by: a share of the box's size, and a pixel (docs/perception_noise.md,
-// `boxes.lasting`, `floor_px`).
-constexpr double kEdgeShare = 0.03, kEdgeFloor = 1;
+// By what edges are off: a pixel, and a share of the box's size, of detectors' errors 0.03
+// (docs/perception_noise.md, `boxes.lasting`, `floor_px`), and as things are no ellipsoids 0.04.
+constexpr double kEdgeShare = 0.05, kEdgeFloor = 1;
 constexpr double kBorder = 2;  // pixels: edges nearer to the border are cut by it
 constexpr int kSteps = 4;      // along each edge
 
