@@ -23,11 +23,9 @@ std::vector<Surface> surfaces(const Map& map) {
   std::vector<Surface> result;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     if (!landmark.confirmed || !carries_things(landmark.label())) return;
-    const Plane plane = map.plane_in_world(id);
-    const Eigen::Vector3d eye = map.keyframes()[landmark.reference].T_wc.translation();
-    const double side = plane.signed_distance(eye) < 0 ? -1 : 1;
+    const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
     result.push_back(
-        {id, Plane(side * plane.normal(), side * plane.offset()), map.outline_in_world(id)});
+        {id, landmark.plane.facing_origin().transformed(T_wr), map.outline_in_world(id)});
   });
   return result;
 }
