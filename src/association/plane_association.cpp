@@ -89,7 +89,7 @@ class Candidates {
     int most = 0;
     for (const KnownPlane& known : known_) {
       if (!nearly_agree(seen, known, options_)) continue;
-      const int count = count_on(known.plane, points);
+      const int count = count_shared(known, points, kTouch * seen.centroid.norm());
       if (count <= most) continue;
       most = count;
       best = &known;
@@ -104,9 +104,21 @@ class Candidates {
   }
 
  private:
+  bool lies_on(const Plane& plane, const Eigen::Vector3d& p) const {
+    return std::abs(plane.signed_distance(p)) < kGate * options_.point_sigma * p.norm();
+  }
+
   int count_on(const Plane& plane, const std::vector<Eigen::Vector3d>& points) const {
+    return static_cast<int>(std::count_if(points.begin(), points.end(),
+                                          [&](const auto& p) { return lies_on(plane, p); }));
+  }
+
+  // A box on a table may be as high as a counter elsewhere: near the outline only.
+  int count_shared(const KnownPlane& known, const std::vector<Eigen::Vector3d>& points,
+                   double margin) const {
+    const Eigen::Vector3d n = known.plane.normal();
     return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const auto& p) {
-      return std::abs(plane.signed_distance(p)) < kGate * options_.point_sigma * p.norm();
+      return lies_on(known.plane, p) && distance_outside(known.outline, n, p) <= margin;
     }));
   }
 

@@ -108,6 +108,11 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline) {
   return outline.empty() ? sum : Eigen::Vector3d(sum / double(outline.size()));
 }
 
+double angle_off(PlaneRelation relation, const Plane& a, const Plane& b) {
+  const double angle = angle_between(a, b);
+  return relation == PlaneRelation::kParallel ? angle : std::numbers::pi / 2 - angle;
+}
+
 void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& T_nr) {
   landmark.reference = reference;
   landmark.plane = landmark.plane.transformed(T_nr);

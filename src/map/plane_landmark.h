@@ -116,6 +116,9 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline);
 
 enum class PlaneRelation { kParallel, kPerpendicular };
 
+/// How far two planes are from a relation, radians, whichever sides they face.
+double angle_off(PlaneRelation relation, const Plane& a, const Plane& b);
+
 /// Two planes of the map that the evidence says are parallel or perpendicular.
 struct RelatedPlanes {
   PlaneId a, b;

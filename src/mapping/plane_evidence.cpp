@@ -61,7 +61,7 @@ PlaneEvidence::Step PlaneEvidence::step(const Plane& plane, const Eigen::Vector3
     const Eigen::Vector3d j(s.u.dot(p.position - at), s.v.dot(p.position - at), -1);
     const double off = plane.signed_distance(p.position);
     const double sigma = p.sigma_off(plane), ratio = off / (width * sigma);
-    const double share = 1 / (1 + ratio * ratio), weight = share / (sigma * sigma);
+    const double share = 1 / (1 + ratio * ratio), weight = p.worth * share / (sigma * sigma);
     s.H += weight * j * j.transpose();
     s.information += share * weight * j * j.transpose();
     s.g += weight * off * j;
@@ -102,7 +102,8 @@ double PlaneEvidence::cost(const Plane& plane) const {
       h.dot(places_ * h) + n.dot(directions_ * n) + 2 * (normals_.norm() - normals_.dot(n));
   for (const PlanePoint& p : points_) {
     const double ratio = plane.signed_distance(p.position) / p.sigma_off(plane);
-    cost -= 2 * std::log(std::exp(-ratio * ratio / 2) + (ratio < 0 ? kBehind : kElsewhere));
+    cost -=
+        2 * p.worth * std::log(std::exp(-ratio * ratio / 2) + (ratio < 0 ? kBehind : kElsewhere));
   }
   cost += std::log(step(plane, foot(plane), 1).information.determinant());
   return std::isfinite(cost) ? cost : std::numeric_limits<double>::infinity();
@@ -143,7 +144,9 @@ std::optional<PlaneFit> PlaneEvidence::solve(const Plane& start) const {
   if (pictured) {
     const PlaneEvidence pictures = without_points();
     const Plane alone = pictures.descend(start, 1);
-    const double points_anywhere = pictures.cost(alone) - 2 * n * std::log(kElsewhere);
+    double worth = 0;
+    for (const PlanePoint& p : points_) worth += p.worth;
+    const double points_anywhere = pictures.cost(alone) - 2 * worth * std::log(kElsewhere);
     if (!(least < points_anywhere - kOdds) && std::isfinite(points_anywhere)) {
       return PlaneFit{alone, false};
     }

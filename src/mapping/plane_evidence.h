@@ -15,6 +15,7 @@ struct PlanePoint {
   Eigen::Vector3d position;
   double sigma = 1;  ///< by which it may lie off the plane: surfaces are not flat
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< σ of its depth, along its ray
+  double worth = 1;  ///< of an independent one: those of one place are mostly of one thing
 
   double sigma_off(const Plane& plane) const {
     return std::hypot(sigma, along.dot(plane.normal()));

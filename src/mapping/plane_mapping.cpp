@@ -97,11 +97,6 @@ double spread(const Map& map, PlaneId id) {
   return off.empty() ? 1 : robust_sigma(off);
 }
 
-double angle_off(PlaneRelation relation, const Plane& a, const Plane& b) {
-  const double angle = angle_between(a, b);
-  return relation == PlaneRelation::kParallel ? angle : std::numbers::pi / 2 - angle;
-}
-
 // Labels say how two planes stand to each other. By far not so: one of the two is a phantom, or has
 // a wrong label. Pictures vote, its own for it.
 bool denied_by_labels(const Map& map, PlaneId id) {

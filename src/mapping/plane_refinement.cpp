@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "cairn/geometry/median.h"
 #include "cairn/map/independent_pictures.h"
 #include "cairn/map/plane_labels.h"
 #include "cairn/mapping/plane_evidence.h"
@@ -18,12 +20,14 @@ constexpr double kWellKnown = 0.023;     // of its normal, radians
 constexpr double kStructureGate = 2;     // σ of the angle
 constexpr double kMaxStructure = 0.14;   // eight degrees, however little is known
 constexpr double kMaxImplied = 0.5;      // thirty degrees, where labels say so
-constexpr std::size_t kManyPoints = 20;
+constexpr double kMaxSquare = 0.38;      // twenty-two degrees, of two upright ones
+constexpr std::size_t kManyPoints = 25;
 constexpr int kWellSeen = 3;    // points of a plane, that a picture should show it
 constexpr double kPixel = 0.7;  // of where a keypoint is, over all its observations
 constexpr double kUnsure = 2;   // points much less sure than surfaces are flat say nothing
 // Things stand before surfaces, and masks are rough; what is behind a surface is hidden by it.
 constexpr double kOfThingsBefore = 0.5;
+constexpr double kPlace = 5;  // side of a place, in σ by which surfaces are not flat
 
 // In the world. Its depth is as sure as the rays of its observations are apart.
 PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
@@ -37,6 +41,28 @@ PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
   }
   const double sigma_depth = kPixel / map.view().pinhole().fx / std::max(sine, 1e-9);
   return {point.position, point_sigma * ray.norm(), std::min(sigma_depth, 1.0) * ray};
+}
+
+// Things have more corners than the surfaces that they stand on: points of one place of a plane are
+// one witness together.
+std::vector<PlanePoint> witnesses(const Map& map, const Plane& plane,
+                                  const std::vector<PointId>& ids, double point_sigma) {
+  std::vector<PlanePoint> points;
+  std::vector<double> sigmas;
+  for (const PointId id : ids) {
+    points.push_back(plane_point(map, id, point_sigma));
+    sigmas.push_back(points.back().sigma);
+  }
+  if (points.empty()) return points;
+  const double side = kPlace * median(sigmas);
+  const Eigen::Vector3d u = plane.normal().unitOrthogonal(), v = plane.normal().cross(u);
+  const auto place_of = [&](const PlanePoint& p) {
+    return std::pair(std::floor(u.dot(p.position) / side), std::floor(v.dot(p.position) / side));
+  };
+  std::map<std::pair<double, double>, int> crowds;
+  for (const PlanePoint& p : points) ++crowds[place_of(p)];
+  for (PlanePoint& p : points) p.worth = 1.0 / crowds[place_of(p)];
+  return points;
 }
 
 // What pictures say of a landmark, in the world.
@@ -59,30 +85,47 @@ double normal_sigma(const Map& map, PlaneId id, const PlaneFit& fit,
   return evidence.sigma_angle(fit, middle_of(map.outline_in_world(id)));
 }
 
+// The upright one that most pictures show.
+PlaneId best_known_wall(const Map& map, PlaneId except) {
+  PlaneId best;
+  std::uint32_t most = 0;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark& known) {
+    if (id == except || !known.confirmed || !is_upright(known.label())) return;
+    if (known.sightings <= most) return;
+    most = known.sightings;
+    best = id;
+  });
+  return best;
+}
+
 // Of a plane of which little is known: if it is parallel or perpendicular to well-known ones, as
 // far as can be told, it is. Where labels say how the two stand, only the normals of its pictures
 // must not deny it, as a few points may be of anything. Many may not: what they deny is then for
 // the adjustment to mend, as it may be drift between the two.
 void add_structure(const Map& map, PlaneId id, const PlaneFit& fit, PlaneEvidence& evidence) {
   const PlaneLandmark& landmark = map.planes()[id];
-  const Eigen::Vector3d seen = evidence.mean_normal();
+  const Plane seen = landmark.observations.empty() ? fit.plane : Plane(evidence.mean_normal(), 0);
   const double sigma = normal_sigma(map, id, fit, evidence);
   const bool few = landmark.points.size() < kManyPoints;
+  const PlaneId wall = few && is_upright(landmark.label()) ? best_known_wall(map, id) : PlaneId{};
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     if (!known.confirmed || other == id) return;
-    const Eigen::Vector3d n = map.plane_in_world(other).normal();
+    const Plane stands = map.plane_in_world(other);
     const auto implied =
         few ? implied_relation(landmark.label(), known.label()) : std::optional<PlaneRelation>();
+    const bool square = other == wall;
     const double gate =
-        implied ? kMaxImplied
-                : std::min(kStructureGate * std::hypot(sigma, known.sigma_tilt), kMaxStructure);
-    const double cosine = std::clamp((implied ? seen : fit.plane.normal()).dot(n), -1.0, 1.0);
+        implied  ? kMaxImplied
+        : square ? kMaxSquare
+                 : std::min(kStructureGate * std::hypot(sigma, known.sigma_tilt), kMaxStructure);
+    const Plane& plane = implied || square ? seen : fit.plane;
     const double sure = std::hypot(kMinTiltSigma, known.sigma_tilt);
-    const auto may_be = [&](PlaneRelation relation) { return !implied || *implied == relation; };
-    if (may_be(PlaneRelation::kParallel) && std::acos(std::abs(cosine)) < gate)
-      evidence.add_normal(cosine < 0 ? -n : n, sure);
-    if (may_be(PlaneRelation::kPerpendicular) && std::asin(std::abs(cosine)) < gate)
-      evidence.add_direction(n, sure);
+    const auto is = [&](PlaneRelation relation) {
+      return (!implied || *implied == relation) && angle_off(relation, plane, stands) < gate;
+    };
+    const Eigen::Vector3d n = stands.normal();
+    if (is(PlaneRelation::kParallel)) evidence.add_normal(plane.normal().dot(n) < 0 ? -n : n, sure);
+    if (is(PlaneRelation::kPerpendicular)) evidence.add_direction(n, sure);
   });
 }
 
@@ -90,9 +133,11 @@ void add_structure(const Map& map, PlaneId id, const PlaneFit& fit, PlaneEvidenc
 double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double point_sigma,
               bool manhattan) {
   PlaneEvidence evidence = pictures_of(map, id);
-  for (const PointId p : points) evidence.add_point(plane_point(map, p, point_sigma));
   PlaneLandmark& landmark = map.planes()[id];
   PlaneFit fit{map.plane_in_world(id)};
+  for (const PlanePoint& p : witnesses(map, fit.plane, points, point_sigma)) {
+    evidence.add_point(p);
+  }
   fit = evidence.solve(fit.plane).value_or(fit);
   if (manhattan) {
     add_structure(map, id, fit, evidence);
@@ -119,10 +164,12 @@ double detection_rate(const Map& map, const PlaneLandmark& landmark) {
 
 double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan) {
   PlaneEvidence evidence = pictures_of(map, id);
-  for (const PointId p : map.planes()[id].points) {
-    if (!map.points()[p].assumed) evidence.add_point(plane_point(map, p, point_sigma));
-  }
+  std::vector<PointId> points = map.planes()[id].points;
+  std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });
   const PlaneFit fit{map.plane_in_world(id)};
+  for (const PlanePoint& p : witnesses(map, fit.plane, points, point_sigma)) {
+    evidence.add_point(p);
+  }
   if (manhattan) add_structure(map, id, fit, evidence);
   return std::hypot(kMinTiltSigma, normal_sigma(map, id, fit, evidence));
 }

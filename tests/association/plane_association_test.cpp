@@ -74,6 +74,20 @@ TEST_F(PlaneAssociation, ItIsNotThePlaneOfItsKeypointsIfTheOffsetDisagrees) {
   EXPECT_NE(decide(with_keypoints(disturbed(same_place(), 0, -0.3), 36)).kind, Kind::kKnown);
 }
 
+// A box on a table may be just as high as a counter on the other side of the room.
+TEST_F(PlaneAssociation, ItIsNotThePlaneOfItsKeypointsIfThatOneIsFarAside) {
+  map.erase_plane(wall);
+  for (const double gap : {0.5, 3.0}) {
+    const auto aside = rectangle({-2 - gap, -1, 4}, {0.5, 0, 0}, {0, 2, 0});
+    const PlaneId known = map.add_plane(map.first(), seen_from(poses[0], aside));
+    SeenPlane seen = with_keypoints(same_place(), 36);
+    seen.sigma_angle = seen.sigma_offset = 1e-6;  // so that the keypoints alone say which it is
+    const PlaneDecision decision = decide(disturbed(seen, 1, 0));
+    EXPECT_EQ(decision.kind, gap < 1 ? Kind::kKnown : Kind::kNew) << gap;
+    map.erase_plane(known);
+  }
+}
+
 TEST_F(PlaneAssociation, FewKeypointsAtTheSamePlaceMakeItKnown) {
   for (const std::uint32_t shared : {0u, 3u, 8u}) {
     const PlaneDecision decision = decide(with_keypoints(disturbed(same_place(), 5, 0.02), shared));
