@@ -177,7 +177,7 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   if (options_.refine_lens) {
     summary = adjust_fully(map_, options_.adjustment, true, abort, &path);
   }
-  remove_unconfirmed_planes(map_, options_.planes);  // points that were no good are gone by now
+  settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();
   publish(map_.newest());

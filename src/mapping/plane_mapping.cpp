@@ -24,6 +24,7 @@ constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
 constexpr double kIndependentOfBare = 3;       // pictures that a surface without points must have
 constexpr double kProbationOfBare = 30;        // seconds
 constexpr double kMaxTiltOfBare = 2.5 * kRadians;
+constexpr double kSpreadInTheEnd = 0.5;  // of max_spread
 constexpr double kShareOfBare = 0.5;  // of the points in its masks, where there is one that tells
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
@@ -278,6 +279,12 @@ void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
     log_plane(id, landmark, stays ? "kept" : "refused");
     if (!stays) map.erase_plane(id);
   });
+}
+
+void settle_planes(Map& map, const PlaneMappingOptions& options) {
+  PlaneMappingOptions settled = options;
+  settled.max_spread *= kSpreadInTheEnd;
+  remove_unconfirmed_planes(map, settled);
 }
 
 }  // namespace cairn

@@ -39,4 +39,8 @@ std::vector<PointId> map_planes(Map& map, KeyframeId keyframe, const KeyframePer
 /// enough points carry: what networks alone say of a surface is too rough for a map.
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options);
 
+/// After the full adjustment: the same anew, as points that were no good are gone and the others
+/// are where they belong; so they may be spread by half as much.
+void settle_planes(Map& map, const PlaneMappingOptions& options);
+
 }  // namespace cairn

@@ -288,5 +288,21 @@ TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSur
   EXPECT_EQ(broken_planes(map), "");
 }
 
+// Of 36 points half lie before the wall and half behind it.
+TEST_F(MapPlanesOfPictures, InTheFinishedMapSurfacesMustBeFlatter) {
+  for (const double spread : {0.007, 0.013}) {
+    points = grid_on(wall_corners(), 6);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] *= 1 + (i % 2 == i / 6 % 2 ? 1 : -1) * spread / 1.48;
+    }
+    map = map_of(points, few_poses(6));
+    for (const KeyframeId id : keyframes_of(map)) show(id, {wall_corners()});
+    remove_unconfirmed_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(1)) << spread;
+    settle_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(spread < 0.01 ? 1 : 0)) << spread;
+  }
+}
+
 }  // namespace
 }  // namespace cairn
