@@ -9,6 +9,7 @@
 #include "cairn/geometry/median.h"
 #include "cairn/map/plane_labels.h"
 #include "cairn/mapping/plane_refinement.h"
+#include "cairn/mapping/upward.h"
 
 namespace cairn {
 namespace {
@@ -24,7 +25,9 @@ constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
 constexpr double kIndependentOfBare = 3;       // pictures that a surface without points must have
 constexpr double kProbationOfBare = 30;        // seconds
 constexpr double kMaxTiltOfBare = 2.5 * kRadians;
-constexpr double kSpreadInTheEnd = 0.5;  // of max_spread
+constexpr double kHalfway = 45 * kRadians;                   // between level and upright
+constexpr double kShareOfClear = 0.9, kSpreadOfClear = 0.2;  // of max_spread
+constexpr double kSpreadInTheEnd = 0.5;                      // of max_spread
 constexpr double kShareOfBare = 0.5;  // of the points in its masks, where there is one that tells
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
@@ -98,15 +101,24 @@ double spread(const Map& map, PlaneId id) {
   return off.empty() ? 1 : robust_sigma(off);
 }
 
+// A table that is called a wall: it stands nearer to what the label excludes.
+bool is_mislabelled(const Map& map, PlaneId id, const std::optional<Upward>& up) {
+  if (!up) return false;
+  const std::string& label = map.planes()[id].label();
+  const double lean =
+      angle_off(PlaneRelation::kParallel, map.plane_in_world(id), Plane(up->direction, 0));
+  return lean < kHalfway ? is_upright(label) : is_level(label);
+}
+
 // Labels say how two planes stand to each other. By far not so: one of the two is a phantom, or has
 // a wrong label. Pictures vote, its own for it.
-bool denied_by_labels(const Map& map, PlaneId id) {
+bool denied_by_labels(const Map& map, PlaneId id, const std::optional<Upward>& up) {
   const PlaneLandmark& landmark = map.planes()[id];
   const Plane plane = map.plane_in_world(id);
   std::size_t yes = landmark.sightings, no = 0;
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     const auto implied = implied_relation(landmark.label(), known.label());
-    if (other == id || !known.confirmed || !implied) return;
+    if (other == id || !known.confirmed || !implied || is_mislabelled(map, other, up)) return;
     const double off = angle_off(*implied, plane, map.plane_in_world(other));
     (off < kMaxImplied ? yes : no) += known.sightings;
   });
@@ -125,6 +137,11 @@ bool is_bare_surface(const PlaneLandmark& landmark, const PlaneMappingOptions& o
          (is_level(landmark.label()) || is_upright(landmark.label()));
 }
 
+// So flat, and with so little off it, that it is no mixture: a detector may miss it more often.
+bool is_clear(const PlaneLandmark& landmark, const PlaneMappingOptions& options) {
+  return landmark.share >= kShareOfClear && landmark.spread <= kSpreadOfClear * options.max_spread;
+}
+
 bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
   const PlaneLandmark& landmark = map.planes()[id];
   const auto measured = std::count_if(landmark.points.begin(), landmark.points.end(),
@@ -134,7 +151,7 @@ bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
          static_cast<int>(measured) >= options.min_points &&
          landmark.sigma_tilt <= options.max_tilt_sigma_deg * kRadians &&
          landmark.spread <= options.max_spread && landmark.share >= options.min_share &&
-         landmark.detected >= options.min_detected;
+         landmark.detected >= (is_clear(landmark, options) ? 0.5 : 1.0) * options.min_detected;
 }
 
 void log_plane(PlaneId id, const PlaneLandmark& landmark, const char* fate) {
@@ -163,10 +180,11 @@ void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
 }
 
 void update_evidence(Map& map, const PlaneMappingOptions& options) {
+  const std::optional<Upward> up = up_by_cameras(map);
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
     refine_landmark(map, id, options.association.point_sigma, options.manhattan);
     landmark.spread = spread(map, id);
-    landmark.denied = denied_by_labels(map, id);
+    landmark.denied = denied_by_labels(map, id, up);
     landmark.confirmed = confirmed(map, id, options);
   });
 }

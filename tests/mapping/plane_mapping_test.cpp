@@ -188,6 +188,33 @@ TEST_F(MapPlanesOfPictures, WhatStandsAsItsLabelCannotStaysOutOfTheMap) {
   }
 }
 
+// More pictures show a table over the floor, and call it a wall. Cameras that are never rolled tell
+// that it is level, once they have turned.
+TEST_F(MapPlanesOfPictures, ATableThatIsCalledAWallDeniesNoFloor) {
+  const auto table = rectangle({-0.6, 0.5, 2.6}, {1.2, 0, 0}, {0, 0, 0.9});
+  std::vector<Eigen::Vector3d> all = grid_on(table, 6);
+  const auto on_floor = grid_on(floor, 6);
+  all.insert(all.end(), on_floor.begin(), on_floor.end());
+  for (const double turn : {0.02, 0.16}) {
+    std::vector<SE3> poses = few_poses(8);
+    for (int i = 0; i < 8; ++i) {
+      poses[i] = SE3(so3_exp(Eigen::Vector3d(0, i % 2 ? turn : -turn, 0)), poses[i].translation());
+    }
+    map = map_of(all, poses);
+    int pictures = 0;
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(all.size(), 1);  // looked at
+      KeyframePerception seen = perceive(map, id, {table, floor}, 36, 5, 0.04);
+      seen.planes[0].label = "wall";
+      seen.planes[1].label = "floor";
+      if (++pictures <= 2) seen.planes.pop_back();
+      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+    }
+    remove_unconfirmed_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(turn > 0.1 ? 2 : 1)) << turn;
+  }
+}
+
 // 8 degrees from square: what one picture shows is so, what none shows together may have drifted.
 TEST_F(MapPlanesOfPictures, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrift) {
   const auto side = rectangle({0.8, -1, 2.6}, {0, 1.4, 0}, {0.17, 0, 1.2});
@@ -286,6 +313,23 @@ TEST_F(MapPlanesOfPictures, AtTheEndOnlyPlanesStayOfWhichPicturesAndPointsAreSur
   remove_unconfirmed_planes(map, options);
   EXPECT_THAT(planes_of(map), ElementsAre(sure));
   EXPECT_EQ(broken_planes(map), "");
+}
+
+// Half of the pictures that show its points miss it. Every fourth point is off a surface, or none.
+TEST_F(MapPlanesOfPictures, WhatIsClearlyASurfaceMayBeMissedMoreOften) {
+  for (const int off : {0, 4}) {
+    points = grid_on(wall_corners(), 6);
+    for (std::size_t i = 0; off > 0 && i < points.size(); i += off) points[i].z() += 0.4;
+    map = map_of(points, few_poses(15));
+    int pictures = 0;
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(points.size(), 1);  // looked at
+      if (++pictures > 6) show(id, {});
+      if (pictures <= 6) show(id, {wall_corners()});
+    }
+    remove_unconfirmed_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(off == 0 ? 1 : 0)) << off;
+  }
 }
 
 // Of 36 points half lie before the wall and half behind it.
