@@ -85,10 +85,12 @@ double normal_sigma(const Map& map, PlaneId id, const PlaneFit& fit,
   return evidence.sigma_angle(fit, middle_of(map.outline_in_world(id)));
 }
 
-// The upright one that most pictures show.
-PlaneId best_known_wall(const Map& map, PlaneId except) {
+// What an upright plane with few points stands square to: the upright one that most pictures show.
+PlaneId wall_for(const Map& map, PlaneId except) {
   PlaneId best;
-  std::uint32_t most = 0;
+  const PlaneLandmark& landmark = map.planes()[except];
+  std::uint32_t most = landmark.sightings;
+  if (landmark.points.size() >= kManyPoints || !is_upright(landmark.label())) return best;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& known) {
     if (id == except || !known.confirmed || !is_upright(known.label())) return;
     if (known.sightings <= most) return;
@@ -96,6 +98,15 @@ PlaneId best_known_wall(const Map& map, PlaneId except) {
     best = id;
   });
   return best;
+}
+
+// It was confirmed before there was a wall to tell.
+bool is_askew(const Map& map, PlaneId id) {
+  const PlaneId wall = wall_for(map, id);
+  if (!wall.valid()) return false;
+  const Plane plane = map.plane_in_world(id), other = map.plane_in_world(wall);
+  return angle_off(PlaneRelation::kParallel, plane, other) > kMaxStructure &&
+         angle_off(PlaneRelation::kPerpendicular, plane, other) > kMaxStructure;
 }
 
 // Of a plane of which little is known: if it is parallel or perpendicular to well-known ones, as
@@ -107,7 +118,7 @@ void add_structure(const Map& map, PlaneId id, const PlaneFit& fit, PlaneEvidenc
   const Plane seen = landmark.observations.empty() ? fit.plane : Plane(evidence.mean_normal(), 0);
   const double sigma = normal_sigma(map, id, fit, evidence);
   const bool few = landmark.points.size() < kManyPoints;
-  const PlaneId wall = few && is_upright(landmark.label()) ? best_known_wall(map, id) : PlaneId{};
+  const PlaneId wall = wall_for(map, id);
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     if (!known.confirmed || other == id) return;
     const Plane stands = map.plane_in_world(other);
@@ -265,7 +276,7 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   const std::vector<PointId> with_rim = measured(true);
   std::vector<PointId> seen = measured(false);
   if (seen.size() < kFewPoints) seen = with_rim;
-  if (!landmark.confirmed) {
+  if (!landmark.confirmed || (manhattan && is_askew(map, id))) {
     landmark.sigma_tilt = fit_to(map, id, with_rim, point_sigma, manhattan);
   } else {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
