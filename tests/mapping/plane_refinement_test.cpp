@@ -207,6 +207,13 @@ class RefineLandmark : public ::testing::Test {
     refine_landmark(map, id, 0.01, false);
     return id;
   }
+  // Another plane, as the first keyframe sees it, whose normal is well known.
+  PlaneId add_sure(const SeenPlane& seen, bool confirmed = true) {
+    const PlaneId id = map.add_plane(map.first(), seen);
+    map.planes()[id].sigma_tilt = 0.02;
+    map.planes()[id].confirmed = confirmed;
+    return id;
+  }
   const PlaneLandmark& landmark(PlaneId id) const { return map.planes()[id]; }
 
   std::vector<Eigen::Vector3d> points;
@@ -287,9 +294,7 @@ TEST_F(RefineLandmark, ATiltIsSurerWithMoreAndWiderPoints) {
 
 TEST_F(RefineLandmark, IfTheWorldIsManhattanAPlaneWithoutPointsIsTurnedToThoseThatAreSure) {
   SeenPlane floor = seen_from(SE3(), rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, 0.1, 1.2}));
-  const PlaneId known = map.add_plane(map.first(), floor);
-  map.planes()[known].sigma_tilt = 0.02;
-  map.planes()[known].confirmed = true;
+  const PlaneId known = add_sure(floor);
   const PlaneId id = see_wall(3, {{}}, {{}});
   const auto off_square = [&] {
     return std::abs(map.plane_in_world(id).normal().dot(map.plane_in_world(known).normal()));
@@ -305,9 +310,7 @@ TEST_F(RefineLandmark, WhereLabelsSayHowTwoStandItIsTurnedHoweverFarItIsOff) {
   const SE3 tilt(so3_exp(Eigen::Vector3d(0.26, 0, 0)), Eigen::Vector3d::Zero());
   SeenPlane top = seen_from(tilt, rectangle({-1, -1, 3}, {2, 0, 0}, {0, 2, 0}));
   top.label = "table";
-  const PlaneId known = map.add_plane(map.first(), top);
-  map.planes()[known].sigma_tilt = 0.02;
-  map.planes()[known].confirmed = true;
+  const PlaneId known = add_sure(top);
   const PlaneId id = see_wall(3, {{}}, {{}});
   const auto between = [&] {
     return angle_between(map.plane_in_world(id), map.plane_in_world(known));
@@ -329,8 +332,7 @@ TEST_F(RefineLandmark, OfTwoWallsTheLesserKnownIsTakenToStandSquareToTheOther) {
   const SE3 tilt(so3_exp(Eigen::Vector3d(0, 0.26, 0)), Eigen::Vector3d::Zero());
   SeenPlane other = seen_from(tilt, rectangle({-1, -1, 3}, {2, 0, 0}, {0, 2, 0}));
   other.label = "wall";
-  const PlaneId known = map.add_plane(map.first(), other);
-  map.planes()[known].sigma_tilt = 0.02;
+  const PlaneId known = add_sure(other, false);
   map.planes()[known].sightings = 100;
   const PlaneId id = see_wall(3, {{}}, {{}});
   map.planes()[id].votes = {{"wall", 1}};
