@@ -45,15 +45,15 @@ PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
 
 // Things have more corners than the surfaces that they stand on: points of one place of a plane are
 // one witness together.
-std::vector<PlanePoint> witnesses(const Map& map, const Plane& plane,
-                                  const std::vector<PointId>& ids, double point_sigma) {
+void add_points(PlaneEvidence& evidence, const Map& map, const Plane& plane,
+                const std::vector<PointId>& ids, double point_sigma) {
   std::vector<PlanePoint> points;
   std::vector<double> sigmas;
   for (const PointId id : ids) {
     points.push_back(plane_point(map, id, point_sigma));
     sigmas.push_back(points.back().sigma);
   }
-  if (points.empty()) return points;
+  if (points.empty()) return;
   const double side = kPlace * median(sigmas);
   const Eigen::Vector3d u = plane.normal().unitOrthogonal(), v = plane.normal().cross(u);
   const auto place_of = [&](const PlanePoint& p) {
@@ -61,8 +61,10 @@ std::vector<PlanePoint> witnesses(const Map& map, const Plane& plane,
   };
   std::map<std::pair<double, double>, int> crowds;
   for (const PlanePoint& p : points) ++crowds[place_of(p)];
-  for (PlanePoint& p : points) p.worth = 1.0 / crowds[place_of(p)];
-  return points;
+  for (PlanePoint& p : points) {
+    p.worth = 1.0 / crowds[place_of(p)];
+    evidence.add_point(p);
+  }
 }
 
 // What pictures say of a landmark, in the world.
@@ -85,17 +87,19 @@ double normal_sigma(const Map& map, PlaneId id, const PlaneFit& fit,
   return evidence.sigma_angle(fit, middle_of(map.outline_in_world(id)));
 }
 
+bool has_few_points(const PlaneLandmark& landmark) { return landmark.points.size() < kManyPoints; }
+
 // What an upright plane with few points stands square to: the upright one that most pictures show.
-PlaneId wall_for(const Map& map, PlaneId except) {
+PlaneId wall_for(const Map& map, PlaneId id) {
   PlaneId best;
-  const PlaneLandmark& landmark = map.planes()[except];
+  const PlaneLandmark& landmark = map.planes()[id];
   std::uint32_t most = landmark.sightings;
-  if (landmark.points.size() >= kManyPoints || !is_upright(landmark.label())) return best;
-  map.planes().for_each([&](PlaneId id, const PlaneLandmark& known) {
-    if (id == except || !known.confirmed || !is_upright(known.label())) return;
+  if (!has_few_points(landmark) || !is_upright(landmark.label())) return best;
+  map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
+    if (other == id || !known.confirmed || !is_upright(known.label())) return;
     if (known.sightings <= most) return;
     most = known.sightings;
-    best = id;
+    best = other;
   });
   return best;
 }
@@ -117,7 +121,7 @@ void add_structure(const Map& map, PlaneId id, const PlaneFit& fit, PlaneEvidenc
   const PlaneLandmark& landmark = map.planes()[id];
   const Plane seen = landmark.observations.empty() ? fit.plane : Plane(evidence.mean_normal(), 0);
   const double sigma = normal_sigma(map, id, fit, evidence);
-  const bool few = landmark.points.size() < kManyPoints;
+  const bool few = has_few_points(landmark);
   const PlaneId wall = wall_for(map, id);
   map.planes().for_each([&](PlaneId other, const PlaneLandmark& known) {
     if (!known.confirmed || other == id) return;
@@ -146,9 +150,7 @@ double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double p
   PlaneEvidence evidence = pictures_of(map, id);
   PlaneLandmark& landmark = map.planes()[id];
   PlaneFit fit{map.plane_in_world(id)};
-  for (const PlanePoint& p : witnesses(map, fit.plane, points, point_sigma)) {
-    evidence.add_point(p);
-  }
+  add_points(evidence, map, fit.plane, points, point_sigma);
   fit = evidence.solve(fit.plane).value_or(fit);
   if (manhattan) {
     add_structure(map, id, fit, evidence);
@@ -178,9 +180,7 @@ double tilt_sigma(const Map& map, PlaneId id, double point_sigma, bool manhattan
   std::vector<PointId> points = map.planes()[id].points;
   std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });
   const PlaneFit fit{map.plane_in_world(id)};
-  for (const PlanePoint& p : witnesses(map, fit.plane, points, point_sigma)) {
-    evidence.add_point(p);
-  }
+  add_points(evidence, map, fit.plane, points, point_sigma);
   if (manhattan) add_structure(map, id, fit, evidence);
   return std::hypot(kMinTiltSigma, normal_sigma(map, id, fit, evidence));
 }
