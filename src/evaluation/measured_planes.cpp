@@ -31,9 +31,7 @@ std::string line(const char* format, Values... values) {
 MeasuredPlanes::MeasuredPlanes(std::vector<FoundPlane> planes, const MeasuredPlaneOptions& options)
     : options_(options), planes_(std::move(planes)), points_(planes_.size()) {
   for (const FoundPlane& plane : planes_) {
-    const Vector3d centre = middle(plane.outline);
-    auto& outline = outlines_.emplace_back(plane.outline);
-    for (Vector3d& corner : outline) corner = centre + options_.shrink * (corner - centre);
+    rims_.push_back(options_.rim * std::sqrt(area(plane.outline)));
   }
 }
 
@@ -46,7 +44,9 @@ void MeasuredPlanes::add_point(const Vector3d& x, const Vector3d& normal) {
     if (!(std::abs(distance) < options_.max_distance)) continue;
     if (!(std::abs(plane.normal.dot(normal)) > least)) continue;
     const Vector3d on_plane = x - distance * plane.normal;
-    if (distance_outside(on_plane, outlines_[i], plane.normal) == 0) points_[i].push_back(x);
+    if (distance_outside(on_plane, plane.outline, plane.normal) < -rims_[i]) {
+      points_[i].push_back(x);
+    }
   }
 }
 

@@ -16,7 +16,7 @@ namespace cairn {
 struct MeasuredPlaneOptions {
   double max_distance = 0.3;     ///< metres from the plane of the map
   double max_turn_deg = 45;      ///< between it and the measured surface around a point
-  double shrink = 0.9;           ///< of its outline, about the middle: rims are the least sure
+  double rim = 0.05;             ///< of the root of its area, at its outline: the least sure part
   double gate = 0.05;            ///< metres from the measured plane to the points that lie on it
   std::size_t min_points = 200;  ///< on the measured plane
   int pixel_step = 8;            ///< every so many pixels, each way, one is taken
@@ -55,8 +55,8 @@ class MeasuredPlanes {
 
   MeasuredPlaneOptions options_;
   std::vector<FoundPlane> planes_;
-  std::vector<std::vector<Eigen::Vector3d>> outlines_;  // shrunk
-  std::vector<std::vector<Eigen::Vector3d>> points_;    // one list a plane
+  std::vector<double> rims_;                          // metres, one a plane
+  std::vector<std::vector<Eigen::Vector3d>> points_;  // one list a plane
   std::size_t pictures_ = 0;
 };
 

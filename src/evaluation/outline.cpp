@@ -1,8 +1,10 @@
 #include "cairn/evaluation/outline.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace cairn {
 
@@ -17,17 +19,26 @@ double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d&
   return (a + t * ab - x).norm();
 }
 
+// Along the normal.
+Vector3d twice_area(std::span<const Vector3d> outline) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    sum += (outline[i] - outline[0]).cross(outline[i + 1] - outline[0]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 // Triangles from the first corner, weighted by their signed areas.
 Vector3d middle(std::span<const Vector3d> outline) {
-  Vector3d normal = Vector3d::Zero(), corners = Vector3d::Zero();
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector3d a = outline[i] - outline[0];
-    normal += a.cross(outline[(i + 1) % outline.size()] - outline[0]);
-    corners += a / double(outline.size());
+  const Vector3d normal = twice_area(outline);
+  if (!(normal.norm() > 1e-12)) {
+    Vector3d corners = Vector3d::Zero();
+    for (const Vector3d& corner : outline)
+      corners += (corner - outline[0]) / double(outline.size());
+    return outline[0] + corners;
   }
-  if (!(normal.norm() > 1e-12)) return outline[0] + corners;
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
     const Vector3d a = outline[i] - outline[0], b = outline[i + 1] - outline[0];
@@ -35,6 +46,8 @@ Vector3d middle(std::span<const Vector3d> outline) {
   }
   return outline[0] + sum / normal.squaredNorm();
 }
+
+double area(std::span<const Vector3d> outline) { return twice_area(outline).norm() / 2; }
 
 // Inside is where the corners wind around the point.
 double distance_outside(const Vector3d& x, std::span<const Vector3d> outline,
@@ -45,7 +58,31 @@ double distance_outside(const Vector3d& x, std::span<const Vector3d> outline,
     winding += std::atan2((a - x).cross(b - x).dot(normal), (a - x).dot(b - x));
     nearest = std::min(nearest, distance_to_segment(x, a, b));
   }
-  return std::abs(winding) > M_PI ? 0 : nearest;
+  return std::abs(winding) > M_PI ? -nearest : nearest;
+}
+
+// A grid of points of the polygon is asked.
+double share_inside(std::span<const Vector3d> polygon, std::span<const Vector3d> other,
+                    const Vector3d& normal, double margin) {
+  constexpr int kPoints = 50;  // a side
+  const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  std::vector<Vector3d> flat;
+  Eigen::AlignedBox2d box;
+  for (const Vector3d& corner : polygon) {
+    flat.push_back(corner - normal.dot(corner - other[0]) * normal);
+    box.extend(Eigen::Vector2d(u.dot(corner), v.dot(corner)));
+  }
+  const Vector3d foot = normal.dot(other[0]) * normal;
+  int all = 0, inside = 0;
+  for (int i = 0; i < kPoints * kPoints; ++i) {
+    const Eigen::Array2d cell(i % kPoints + 0.5, int(i / kPoints) + 0.5);
+    const Eigen::Vector2d at = box.min().array() + cell / kPoints * box.sizes().array();
+    const Vector3d x = foot + at.x() * u + at.y() * v;
+    if (distance_outside(x, flat, normal) > 0) continue;
+    ++all;
+    inside += distance_outside(x, other, normal) <= margin;
+  }
+  return all == 0 ? 0 : double(inside) / all;
 }
 
 }  // namespace cairn

@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNoPair = 2;  // more than any pair that agrees costs
+constexpr double kNoPair = 2;      // more than any pair that agrees costs
+constexpr double kMostOfIt = 0.5;  // of what was found, that is where the true one is
 
 // angle and offset of a pair, agreeing or not.
 PlaneMatch compare(const TruePlane& truth, const FoundPlane& found) {
@@ -30,10 +31,9 @@ double pair_cost(const TruePlane& truth, const FoundPlane& found,
   const double angle = match.angle * 180 / M_PI / options.max_angle_deg;
   const double offset = match.offset / options.max_offset;
   if (!(angle < 1 && offset < 1)) return kNoPair;
-  const Vector3d x = middle(found.outline);
-  const Vector3d on_plane = x - (truth.normal.dot(x) + truth.d) * truth.normal;
-  const double outside = distance_outside(on_plane, truth.outline, truth.normal);
-  return outside > options.max_outside ? kNoPair : angle + offset;
+  const double inside =
+      share_inside(found.outline, truth.outline, truth.normal, options.max_outside);
+  return inside < kMostOfIt ? kNoPair : angle + offset;
 }
 
 void set_summary(std::span<const PlaneMatch> scored, PlaneMetrics& metrics) {

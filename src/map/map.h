@@ -165,6 +165,8 @@ class Map {
   std::vector<PointId> points_in_masks(PlaneId id, bool rim) const;
   /// Draws the outline anew from what all keyframes saw of the plane.
   void update_outline(PlaneId id);
+  /// What each picture saw of a plane, on the plane as it is now; reference's frame.
+  std::vector<std::vector<Eigen::Vector3d>> seen_outlines(PlaneId id) const;
   /// Points whose depth it gave go with it.
   void erase_plane(PlaneId id);
   /// Says that a point lies on a plane, or (invalid id) on none.
@@ -210,6 +212,10 @@ class Map {
   double readout_ = 0, readout_estimate_ = 0;
   SlotMap<Keyframe, KeyframeId> keyframes_;
   SlotMap<MapPoint, PointId> points_;
+  /// f(T_rk, outlines): of each picture of a plane its frame in that of the reference.
+  template <class Function>
+  void for_each_view(PlaneId id, Function&& f) const;
+
   SlotMap<PlaneLandmark, PlaneId> planes_;
   std::vector<RelatedPlanes> relations_;
   SlotMap<ObjectLandmark, ObjectId> objects_;

@@ -10,7 +10,7 @@ namespace {
 PlaneObservation observation_of(KeyframeId keyframe, const SeenPlane& seen) {
   PlaneObservation o{keyframe, seen.plane.facing_origin().normal(), seen.centroid, seen.sigma_angle,
                      seen.sigma_offset};
-  o.corners = seen.outline;
+  o.outlines = {seen.outline};
   o.keypoints = seen.keypoints;
   o.inner = seen.inner;
   return o;
@@ -48,18 +48,35 @@ void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) 
   update_outline(id);
 }
 
+template <class Function>
+void Map::for_each_view(PlaneId id, Function&& f) const {
+  const PlaneLandmark& landmark = planes_[id];
+  for (const BuriedOutline& seen : landmark.buried_outlines) f(seen.T_rk, seen.outlines);
+  const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
+  for (const PlaneObservation& o : landmark.observations) {
+    f(T_rw * keyframes_[o.keyframe].T_wc, o.outlines);
+  }
+}
+
 // The plane is better known than what one picture says of it, and a pixel's ray better than its
 // depth: so the corners of all pictures are put onto the plane anew.
 void Map::update_outline(PlaneId id) {
-  PlaneLandmark& landmark = planes_[id];
+  std::vector<std::vector<Eigen::Vector3d>> pictures;
+  for_each_view(id, [&](const SE3& T_rk, const std::vector<std::vector<Eigen::Vector3d>>& parts) {
+    std::vector<Eigen::Vector3d> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    pictures.push_back(outline_on(planes_[id].plane, T_rk, all));
+  });
+  std::vector<Eigen::Vector3d> outline = common_outline(planes_[id].plane, pictures);
+  if (outline.size() > 2) planes_[id].outline = std::move(outline);
+}
+
+std::vector<std::vector<Eigen::Vector3d>> Map::seen_outlines(PlaneId id) const {
   std::vector<std::vector<Eigen::Vector3d>> outlines;
-  for (const BuriedOutline& seen : landmark.buried_outlines)
-    outlines.push_back(outline_on(landmark.plane, seen.T_rk, seen.corners));
-  const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
-  for (const PlaneObservation& o : landmark.observations)
-    outlines.push_back(outline_on(landmark.plane, T_rw * keyframes_[o.keyframe].T_wc, o.corners));
-  std::vector<Eigen::Vector3d> outline = common_outline(landmark.plane, outlines);
-  if (outline.size() > 2) landmark.outline = std::move(outline);
+  for_each_view(id, [&](const SE3& T_rk, const std::vector<std::vector<Eigen::Vector3d>>& parts) {
+    for (const auto& part : parts) outlines.push_back(outline_on(planes_[id].plane, T_rk, part));
+  });
+  return outlines;
 }
 
 std::vector<PointId> Map::points_in_masks(PlaneId id, bool rim) const {
@@ -106,7 +123,7 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   for (const PlaneObservation& o : moved.observations) target.add(o);
   const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
   for (const BuriedOutline& seen : moved.buried_outlines) {
-    target.buried_outlines.push_back({T_rf * seen.T_rk, seen.corners});
+    target.buried_outlines.push_back({T_rf * seen.T_rk, seen.outlines});
   }
   for (const auto& [point, votes] : moved.buried_votes) {
     MaskVotes& sum = target.buried_votes[point];
@@ -138,13 +155,13 @@ void Map::move_planes(KeyframeId from, KeyframeId to) {
       PlaneObservation o = std::move(*seen);
       landmark.observations.erase(seen);
       const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
-      landmark.buried_outlines.push_back({T_rw * keyframes_[from].T_wc, std::move(o.corners)});
+      landmark.buried_outlines.push_back({T_rw * keyframes_[from].T_wc, std::move(o.outlines)});
       o.keyframe = to;
       o.normal = T_tf.rotation() * o.normal;
       o.centroid = T_tf * o.centroid;
       count_votes(keyframes_[from], o,
                   [&](PointId p) -> MaskVotes& { return landmark.buried_votes[p]; });
-      o.corners.clear();
+      o.outlines.clear();
       o.keypoints.clear();
       o.inner.clear();
       if (to.valid()) landmark.add(o);

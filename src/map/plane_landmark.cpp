@@ -46,7 +46,7 @@ bool PlaneLandmark::seen_by(KeyframeId keyframe) const {
 void PlaneLandmark::add(const PlaneObservation& o) {
   for (PlaneObservation& known : observations) {
     if (known.keyframe != o.keyframe) continue;
-    append(known.corners, o.corners);
+    append(known.outlines, o.outlines);
     append(known.keypoints, o.keypoints);
     append(known.inner, o.inner);
     return;

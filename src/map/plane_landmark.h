@@ -33,7 +33,8 @@ struct PlaneObservation {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< keyframe's frame, on the seen plane
   double sigma_angle = 0.05;                           ///< radians
   double sigma_offset = 0.05;                          ///< units of the map
-  std::vector<Eigen::Vector3d> corners = {};  ///< keyframe's frame; their rays tell, not how far
+  /// Of each part that it sees, keyframe's frame; the rays of corners tell, not how far they are.
+  std::vector<std::vector<Eigen::Vector3d>> outlines = {};
   std::vector<std::uint32_t> keypoints = {}, inner = {};  ///< as in SeenPlane
 };
 
@@ -44,10 +45,10 @@ struct MaskVotes {
 };
 
 /// What a keyframe that is gone saw of a plane: its frame in that of the plane's reference, and
-/// corners in its frame, of which the rays tell.
+/// outlines in its frame, as in PlaneObservation.
 struct BuriedOutline {
   SE3 T_rk;
-  std::vector<Eigen::Vector3d> corners;
+  std::vector<std::vector<Eigen::Vector3d>> outlines;
 };
 
 /// A plane of the map, relative to the keyframe that saw it first (the paper, section III.B).
@@ -60,7 +61,7 @@ struct PlaneLandmark {
   // What keyframes saw that are gone: points in masks, outlines.
   std::map<PointId, MaskVotes> buried_votes = {};
   std::vector<BuriedOutline> buried_outlines = {};
-  std::vector<Eigen::Vector3d> outline = {};  ///< convex, in the reference's frame
+  std::vector<Eigen::Vector3d> outline = {};  ///< convex hull, in the reference's frame
   std::uint32_t sightings = 0;                ///< pictures that showed it, ever
   std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
   // Evidence, kept by mapping.

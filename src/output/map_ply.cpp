@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "cairn/geometry/polygon_triangles.h"
 #include "cairn/output/atomic_file.h"
 
 namespace cairn {
@@ -57,12 +58,16 @@ void PlyModel::add_camera(const SE3& T_wc, double depth, const Rgb& colour) {
 
 void PlyModel::add_polygon(std::span<const Vector3d> corners, const Rgb& colour) {
   if (corners.size() < 3) return;
-  std::vector<std::int32_t> face;
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    normal += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+  const Vector3d u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
+  std::vector<Eigen::Vector2f> flat;
   for (const Vector3d& corner : corners) {
-    face.push_back(std::int32_t(vertices_.size()));
-    add_point(corner, colour);
+    flat.emplace_back(float(u.dot(corner - corners[0])), float(v.dot(corner - corners[0])));
   }
-  faces_.push_back(std::move(face));
+  // Viewers take a face for a fan.
+  add_mesh(corners, polygon_triangles(flat), colour);
 }
 
 void PlyModel::add_mesh(std::span<const Vector3d> vertices,
@@ -70,7 +75,7 @@ void PlyModel::add_mesh(std::span<const Vector3d> vertices,
   const auto first = std::int32_t(vertices_.size());
   for (const Vector3d& vertex : vertices) add_point(vertex, colour);
   for (const Eigen::Vector3i& t : triangles) {
-    faces_.push_back({first + t.x(), first + t.y(), first + t.z()});
+    faces_.push_back(t.array() + first);
   }
 }
 
@@ -93,7 +98,7 @@ void PlyModel::write(const std::filesystem::path& file) const {
   }
   for (const auto& face : faces_) {
     append(bytes, std::int32_t(face.size()));
-    for (const std::int32_t index : face) append(bytes, index);
+    for (const int index : face) append(bytes, std::int32_t(index));
   }
   write_file(file, bytes);
 }

@@ -22,7 +22,7 @@ class PlyModel {
   void add_path(const Trajectory& trajectory, const Rgb& colour, double step);
   /// The pyramid that a camera sees, `depth` metres deep, half as wide as that.
   void add_camera(const SE3& T_wc, double depth, const Rgb& colour);
-  /// Corners in order; filled.
+  /// Corners in order; filled. May be concave.
   void add_polygon(std::span<const Eigen::Vector3d> corners, const Rgb& colour);
   /// A closed surface, of triangles of indices into `vertices`.
   void add_mesh(std::span<const Eigen::Vector3d> vertices,
@@ -43,7 +43,7 @@ class PlyModel {
                 int points);
 
   std::vector<Vertex> vertices_;
-  std::vector<std::vector<std::int32_t>> faces_;
+  std::vector<Eigen::Vector3i> faces_;  // triangles
 };
 
 }  // namespace cairn

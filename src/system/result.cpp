@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "cairn/mapping/plane_shape.h"
+
 namespace cairn {
 
 std::vector<MappedPlane> describe_planes(const Map& map) {
@@ -14,11 +16,7 @@ std::vector<MappedPlane> describe_planes(const Map& map) {
     plane.label = landmark.label();
     plane.normal = in_world.normal();
     plane.d = in_world.offset();
-    plane.outline = map.outline_in_world(id);
-    // The plane has moved since its corners were seen.
-    for (Eigen::Vector3d& corner : plane.outline) {
-      corner -= in_world.signed_distance(corner) * plane.normal;
-    }
+    plane.outline = plane_shape(map, id);
     plane.sigma_angle = landmark.sigma_tilt;
     plane.points = static_cast<int>(landmark.points.size());
     plane.sightings = static_cast<int>(landmark.sightings);

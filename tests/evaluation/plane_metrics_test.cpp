@@ -56,7 +56,7 @@ TEST(PlaneMetrics, CallPlanesFalseThatAreTiltedOffOrElsewhere) {
                                   {found_table(0, 0, 0.801), false},
                                   {found_table(0.59, 0, 0.7), true},
                                   {found_table(0.61, 0, 0.7), false},
-                                  {found_table(0.56, 0.56, 0.7), true},
+                                  {found_table(0.45, 0.45, 0.7), true},
                                   {found_table(0.58, 0.58, 0.7), false}}) {
     const PlaneMetrics m = plane_metrics(truth, std::vector<FoundPlane>{plane});
     EXPECT_EQ(m.correct, ok ? 1u : 0u);
@@ -102,6 +102,20 @@ TEST(PlaneMetrics, KnowTheInsideOfAnOutlineThatIsNotConvex) {
   EXPECT_EQ(plane_metrics(truth, std::vector{found_table(-1, 1, 0.7)}).correct, 1u);
   EXPECT_EQ(plane_metrics(truth, std::vector{found_table(1, -1, 0.7)}).correct, 1u);
   EXPECT_EQ(plane_metrics(truth, std::vector{found_table(1, 1, 0.7)}).correct, 0u);
+}
+
+TEST(PlaneMetrics, FindAnLWhoseMiddleIsNotOnIt) {
+  TruePlane floor = true_table();  // two arms, half a metre wide
+  floor.outline = {{-2, -2, 0.7},     {2, -2, 0.7},   {2, -1.5, 0.7},
+                   {-1.5, -1.5, 0.7}, {-1.5, 2, 0.7}, {-2, 2, 0.7}};
+  FoundPlane found;
+  found.normal = floor.normal;
+  found.d = floor.d;
+  found.outline = floor.outline;
+  EXPECT_EQ(plane_metrics(std::vector{floor}, std::vector{found}).correct, 1u);
+  found.outline = {{-2, -2, 0.7}, {2, -2, 0.7}, {2, 2, 0.7}, {-2, 2, 0.7}};
+  EXPECT_EQ(plane_metrics(std::vector{floor}, std::vector{found}).correct, 0u)
+      << "most of it is elsewhere";
 }
 
 }  // namespace

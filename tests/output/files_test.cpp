@@ -145,9 +145,9 @@ TEST(PlyModel, WritesWhatItsHeaderPromises) {
   model.add_camera(SE3(), 0.1, {0, 0, 0});
   model.write(folder / "map.ply");
   bytes = content(folder / "map.ply");
-  EXPECT_THAT(bytes, HasSubstr("element face 3\n"));
+  EXPECT_THAT(bytes, HasSubstr("element face 4\n"));
   EXPECT_EQ(bytes.size() - bytes.find("end_header\n") - 11,
-            model.vertex_count() * 15 + (1 + 4) * 4 + 2 * (1 + 3) * 4);
+            model.vertex_count() * 15 + 4 * (1 + 3) * 4);
 }
 
 std::vector<FrameRecord> hundred_frames() {

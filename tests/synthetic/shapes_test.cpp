@@ -2,11 +2,11 @@
 
 #include <numbers>
 
+#include "cairn/geometry/polygon_triangles.h"
 #include "cairn/synthetic/shapes/box.h"
 #include "cairn/synthetic/shapes/lathe.h"
 #include "cairn/synthetic/shapes/loft.h"
 #include "cairn/synthetic/shapes/surface.h"
-#include "cairn/synthetic/shapes/triangulate.h"
 
 namespace cairn {
 namespace {
@@ -96,7 +96,7 @@ TEST(Triangulate, CutsACombIntoTrianglesOfItsArea) {
   double polygon = 0, triangles = 0;
   for (std::size_t i = 0; i < comb.size(); ++i)
     polygon += double(cross(comb[i], comb[(i + 1) % comb.size()])) / 2;
-  const auto cut = triangulate(comb);
+  const auto cut = polygon_triangles(comb);
   for (const Eigen::Vector3i& t : cut) {
     const double area = double(cross(comb[t[1]] - comb[t[0]], comb[t[2]] - comb[t[0]])) / 2;
     EXPECT_GE(area, 0);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/geometry/polygon_triangles.h"
 #include "cairn/synthetic/shapes/surface.h"
-#include "cairn/synthetic/shapes/triangulate.h"
 
 namespace cairn {
 namespace {
@@ -37,7 +37,7 @@ void add_end(Mesh& mesh, const Ring& ring, bool last) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Eigen::Vector3f& p : ring)
     mesh.vertices.push_back({p, last ? normal : -normal, {p.y() - corner.y(), p.x() - corner.x()}});
-  for (const Eigen::Vector3i& t : triangulate(flat)) {
+  for (const Eigen::Vector3i& t : polygon_triangles(flat)) {
     const std::uint32_t a = first + std::uint32_t(t[0]), b = first + std::uint32_t(t[1]),
                         c = first + std::uint32_t(t[2]);
     mesh.triangles.push_back(last ? Mesh::Triangle{a, b, c, 0} : Mesh::Triangle{a, c, b, 0});

@@ -1,4 +1,4 @@
-#include "cairn/synthetic/shapes/triangulate.h"
+#include "cairn/geometry/polygon_triangles.h"
 
 #include <numeric>
 
@@ -9,13 +9,13 @@ float twice_area(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-bool is_ear(const Outline& outline, const std::vector<int>& left, int i) {
+bool is_ear(std::span<const Eigen::Vector2f> polygon, const std::vector<int>& left, int i) {
   const int n = int(left.size());
-  const Eigen::Vector2f &a = outline[left[(i + n - 1) % n]], &b = outline[left[i]],
-                        &c = outline[left[(i + 1) % n]];
+  const Eigen::Vector2f &a = polygon[left[(i + n - 1) % n]], &b = polygon[left[i]],
+                        &c = polygon[left[(i + 1) % n]];
   if (twice_area(a, b, c) <= 0) return false;
   for (int k = 2; k + 1 < n; ++k) {
-    const Eigen::Vector2f& p = outline[left[(i + k) % n]];
+    const Eigen::Vector2f& p = polygon[left[(i + k) % n]];
     if (p == a || p == b || p == c) continue;
     if (twice_area(a, b, p) >= 0 && twice_area(b, c, p) >= 0 && twice_area(c, a, p) >= 0)
       return false;
@@ -25,8 +25,8 @@ bool is_ear(const Outline& outline, const std::vector<int>& left, int i) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3i> triangulate(const Outline& outline) {
-  std::vector<int> left(outline.size());
+std::vector<Eigen::Vector3i> polygon_triangles(std::span<const Eigen::Vector2f> polygon) {
+  std::vector<int> left(polygon.size());
   std::iota(left.begin(), left.end(), 0);
   std::vector<Eigen::Vector3i> triangles;
   int at = 0, tried = 0;
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3i> triangulate(const Outline& outline) {
     const int n = int(left.size());
     at %= n;
     // With nothing but flat corners left, any of them will do.
-    if (is_ear(outline, left, at) || tried > n) {
+    if (is_ear(polygon, left, at) || tried > n) {
       triangles.emplace_back(left[(at + n - 1) % n], left[at], left[(at + 1) % n]);
       left.erase(left.begin() + at);
       tried = 0;

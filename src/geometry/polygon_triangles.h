@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace cairn {
+
+/// Cuts a simple polygon, corners counter-clockwise, into counter-clockwise triangles of its
+/// corners by clipping ears (Meisters 1975). Quadratic or worse; meant for outlines of up to some
+/// hundred points.
+std::vector<Eigen::Vector3i> polygon_triangles(std::span<const Eigen::Vector2f> polygon);
+
+}  // namespace cairn
