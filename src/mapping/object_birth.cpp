@@ -15,10 +15,10 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMiddle = 0.6;  // of a box, in which what is seen is mostly the thing itself
 constexpr std::size_t kFewPoints = 3;
-constexpr double kFarTooLarge = 3;    // σ of the class's size
-constexpr double kUprightOdds = 8;    // in the cost: things stand as usual rather than in any way
-constexpr double kShareOfSize = 0.4;  // of a thing's longest semi-axis, that its place may be off
-constexpr double kLeastSlant = 0.1;   // of a unit vector, that its horizontal part says a direction
+constexpr double kFarTooLarge = 3;     // σ of the class's size
+constexpr double kUprightOdds = 8;     // in the cost: things stand as usual rather than in any way
+constexpr double kShareOfSize = 0.65;  // of a thing's longest semi-axis, that its place may be off
+constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
 
 // Depths of what the middle of a box shows.
 std::vector<double> depths_in(const Map& map, const Keyframe& keyframe, const SeenObject& seen,

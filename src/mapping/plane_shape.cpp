@@ -13,7 +13,7 @@ constexpr int kMargin = 2;            // cells around it
 constexpr double kRare = 0.15;        // of the pictures that show a usual place: fewer are mistaken
 constexpr int kLargestGap = 32;       // cells, that are closed
 constexpr double kNearlyAll = 0.95;   // of the area, that one part must have
-constexpr double kCornerError = 1.0;  // cells, that a simplified outline may be off
+constexpr double kCornerError = 2.0;  // cells, that a simplified outline may be off
 
 // The plane as a drawing board around its convex outline; lengths in cells.
 class Board {
@@ -104,6 +104,7 @@ std::vector<cv::Point> border_of(const cv::Mat_<unsigned char>& seen) {
 
 std::vector<Eigen::Vector3d> plane_shape(const Map& map, PlaneId id) {
   const PlaneLandmark& landmark = map.planes()[id];
+  if (landmark.outline.empty()) return {};
   const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
   const Board board(landmark.plane, landmark.outline);
   const cv::Mat_<unsigned char> seen = commonly_seen(board, map.seen_outlines(id));

@@ -98,6 +98,12 @@ TEST(PlaneShape, KnowsTwoPartsInOnePicture) {
   EXPECT_NEAR(area(wall.shape()), 2.25, 0.1);
 }
 
+TEST(PlaneShape, OfAPlaneWithoutOutlineIsNone) {
+  SeenWall wall({kLow});
+  wall.map.planes()[wall.id].outline.clear();
+  EXPECT_TRUE(wall.shape().empty());
+}
+
 TEST(PlaneShape, SurvivesTheKeyframesThatSawIt) {
   SeenWall wall({kLow, kLeft});
   const std::vector<KeyframeId> keyframes = keyframes_of(wall.map);
