@@ -138,7 +138,7 @@ void add_world_options(CLI::App& command, Arguments& arguments) {
   add("--plane-offset", planes.max_offset,
       "metres from the middle of a found plane to the true one");
   add("--plane-outside", planes.max_outside,
-      "metres by which that middle may lie outside of the true outline");
+      "metres around the true outline in which half of the found area must lie");
 }
 
 }  // namespace

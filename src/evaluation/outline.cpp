@@ -61,26 +61,35 @@ double distance_outside(const Vector3d& x, std::span<const Vector3d> outline,
   return std::abs(winding) > M_PI ? -nearest : nearest;
 }
 
+double distance_outside(const Vector3d& x, std::span<const std::vector<Vector3d>> surface,
+                        const Vector3d& normal) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::vector<Vector3d>& part : surface) {
+    nearest = std::min(nearest, distance_outside(x, std::span(part), normal));
+  }
+  return nearest;
+}
+
 // A grid of points of the polygon is asked.
-double share_inside(std::span<const Vector3d> polygon, std::span<const Vector3d> other,
-                    const Vector3d& normal, double margin) {
+double share_on(std::span<const std::vector<Vector3d>> surface, const Vector3d& normal,
+                std::span<const Vector3d> polygon, double margin) {
   constexpr int kPoints = 50;  // a side
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  const Vector3d foot = normal.dot(surface[0][0]) * normal;
   std::vector<Vector3d> flat;
   Eigen::AlignedBox2d box;
   for (const Vector3d& corner : polygon) {
-    flat.push_back(corner - normal.dot(corner - other[0]) * normal);
+    flat.push_back(corner - normal.dot(corner - foot) * normal);
     box.extend(Eigen::Vector2d(u.dot(corner), v.dot(corner)));
   }
-  const Vector3d foot = normal.dot(other[0]) * normal;
   int all = 0, inside = 0;
   for (int i = 0; i < kPoints * kPoints; ++i) {
     const Eigen::Array2d cell(i % kPoints + 0.5, int(i / kPoints) + 0.5);
     const Eigen::Vector2d at = box.min().array() + cell / kPoints * box.sizes().array();
     const Vector3d x = foot + at.x() * u + at.y() * v;
-    if (distance_outside(x, flat, normal) > 0) continue;
+    if (distance_outside(x, std::span<const Vector3d>(flat), normal) > 0) continue;
     ++all;
-    inside += distance_outside(x, other, normal) <= margin;
+    inside += distance_outside(x, surface, normal) <= margin;
   }
   return all == 0 ? 0 : double(inside) / all;
 }

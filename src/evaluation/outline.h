@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 namespace cairn {
 
@@ -15,10 +16,15 @@ double area(std::span<const Eigen::Vector3d> outline);
 double distance_outside(const Eigen::Vector3d& x, std::span<const Eigen::Vector3d> outline,
                         const Eigen::Vector3d& normal);
 
-/// Of the area of a polygon, projected along the unit `normal` into the other's plane, the share
-/// that is inside of the other or not farther than `margin` from it.
-double share_inside(std::span<const Eigen::Vector3d> polygon,
-                    std::span<const Eigen::Vector3d> other, const Eigen::Vector3d& normal,
-                    double margin);
+/// The same of a surface of several polygons in one plane: from the nearest of them.
+double distance_outside(const Eigen::Vector3d& x,
+                        std::span<const std::vector<Eigen::Vector3d>> surface,
+                        const Eigen::Vector3d& normal);
+
+/// Of the area of a polygon, projected along the unit `normal` into the plane of a surface, the
+/// share that is on the surface or not farther than `margin` from it.
+double share_on(std::span<const std::vector<Eigen::Vector3d>> surface,
+                const Eigen::Vector3d& normal, std::span<const Eigen::Vector3d> polygon,
+                double margin);
 
 }  // namespace cairn

@@ -31,8 +31,7 @@ double pair_cost(const TruePlane& truth, const FoundPlane& found,
   const double angle = match.angle * 180 / M_PI / options.max_angle_deg;
   const double offset = match.offset / options.max_offset;
   if (!(angle < 1 && offset < 1)) return kNoPair;
-  const double inside =
-      share_inside(found.outline, truth.outline, truth.normal, options.max_outside);
+  const double inside = share_on(truth.parts, truth.normal, found.outline, options.max_outside);
   return inside < kMostOfIt ? kNoPair : angle + offset;
 }
 

@@ -14,8 +14,8 @@ namespace cairn {
 struct PlaneMetricsOptions {
   double max_angle_deg = 10;  ///< between the normals, whichever sides they point to
   double max_offset = 0.1;    ///< metres, from the middle of the found outline to the true plane
-  /// Metres. Half of the area in the found outline, projected into the true plane, lies in the true
-  /// outline or not farther than this from it. (The middle of an L-shaped floor is not on it.)
+  /// Metres. Half of the area in the found outline, projected into the true plane, lies on the true
+  /// surface or not farther than this from it. (The middle of an L-shaped floor is not on it.)
   double max_outside = 0.1;
   /// A true plane that is well seen in fewer frames can not be missed. Planes of which world.json
   /// does not say in how many frames they are seen count as always seen.

@@ -1,10 +1,18 @@
 #include "cairn/evaluation/world_truth.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "cairn/evaluation/checked_json.h"
+#include "cairn/evaluation/outline.h"
 #include "cairn/geometry/outline_ellipsoid.h"
 
 namespace cairn {
 namespace {
+
+constexpr double kJoint = 0.01;      // metres between planes that are one
+constexpr double kSameAngle = 0.01;  // radians
 
 TurnSymmetry read_symmetry(const CheckedJson& value) {
   const std::string name = value.text();
@@ -36,9 +44,41 @@ TruePlane read_plane(const CheckedJson& value) {
   plane.label = value.at("label").text();
   plane.normal = value.at("normal").unit_vector();
   plane.d = value.at("d").number();
-  plane.outline = value.at("outline").outline();
+  plane.parts = {value.at("outline").outline()};
   if (value.has("visible_frames")) plane.visible_frames = value.at("visible_frames").integer();
   return plane;
+}
+
+bool touch(const TruePlane& a, const TruePlane& b) {
+  for (const auto& part : a.parts) {
+    for (const Eigen::Vector3d& corner : part) {
+      if (distance_outside(corner, b.parts, b.normal) < kJoint) return true;
+    }
+  }
+  return false;
+}
+
+bool one_surface(const TruePlane& a, const TruePlane& b) {
+  const auto& corner = b.parts[0][0];
+  return a.label == b.label && a.normal.dot(b.normal) > std::cos(kSameAngle) &&
+         std::abs(a.normal.dot(corner) + a.d) < kJoint && (touch(a, b) || touch(b, a));
+}
+
+// Takes in those that it goes on in.
+void join(TruePlane plane, std::vector<TruePlane>& planes) {
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (auto other = planes.begin(); other != planes.end(); ++other) {
+      if (!one_surface(*other, plane)) continue;
+      plane.id = std::min(plane.id, other->id);
+      plane.visible_frames = std::max(plane.visible_frames, other->visible_frames);
+      plane.parts.insert(plane.parts.end(), other->parts.begin(), other->parts.end());
+      planes.erase(other);
+      grown = true;
+      break;
+    }
+  }
+  planes.push_back(std::move(plane));
 }
 
 }  // namespace
@@ -57,7 +97,7 @@ WorldTruth read_world(const std::filesystem::path& file) {
     world.objects.push_back(read_object(value));
   }
   for (const CheckedJson& value : json.at("planes").list()) {
-    world.planes.push_back(read_plane(value));
+    join(read_plane(value), world.planes);
   }
   return world;
 }

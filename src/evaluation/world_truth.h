@@ -27,12 +27,14 @@ struct TrueObject {
 
 /// A true plane, `normal · x + d = 0`.
 struct TruePlane {
-  int id = 0;
+  int id = 0;  ///< of its first part
   std::string label;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double d = 0;
-  std::vector<Eigen::Vector3d> outline;  ///< corners of a polygon, at least three
-  /// In which it is well seen; where world.json says nothing, it counts as always seen.
+  /// Corners of polygons, at least three each: planes that go on in each other, as the fronts of a
+  /// row of houses, are one.
+  std::vector<std::vector<Eigen::Vector3d>> parts;
+  /// In which a part of it is well seen; where world.json says nothing, it counts as always seen.
   int visible_frames = std::numeric_limits<int>::max();
 };
 

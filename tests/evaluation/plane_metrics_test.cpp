@@ -21,7 +21,7 @@ TruePlane true_table() {
   TruePlane plane;
   plane.normal = {0, 0, 1};
   plane.d = -0.7;
-  plane.outline = square(0, 0, 0.7);
+  plane.parts = {square(0, 0, 0.7)};
   return plane;
 }
 
@@ -78,9 +78,9 @@ TEST(PlaneMetrics, DoNotCareOnWhichSideTheNormalIs) {
 TEST(PlaneMetrics, CountASurfaceThatIsFoundTwiceAsDuplicated) {
   std::vector<TruePlane> truth = {true_table(), true_table(), true_table()};
   truth[1].d = -2;  // a ceiling-like one that is not found
-  truth[1].outline = square(0, 0, 2);
+  truth[1].parts = {square(0, 0, 2)};
   truth[2].d = -3;  // and one that was hardly seen
-  truth[2].outline = square(0, 0, 3);
+  truth[2].parts = {square(0, 0, 3)};
   truth[2].visible_frames = 2;
   const std::vector<FoundPlane> found = {found_table(0.1, 0, 0.75), found_table(-0.1, 0, 0.71),
                                          found_table(0, 0, 3), found_table(0, 0, 1.5)};
@@ -96,8 +96,8 @@ TEST(PlaneMetrics, CountASurfaceThatIsFoundTwiceAsDuplicated) {
 
 TEST(PlaneMetrics, KnowTheInsideOfAnOutlineThatIsNotConvex) {
   TruePlane floor = true_table();  // an L; the corner that it leaves out is at x > 0, y > 0
-  floor.outline = {{-2, -2, 0.7}, {2, -2, 0.7}, {2, 0, 0.7},
-                   {0, 0, 0.7},   {0, 2, 0.7},  {-2, 2, 0.7}};
+  floor.parts = {
+      {{-2, -2, 0.7}, {2, -2, 0.7}, {2, 0, 0.7}, {0, 0, 0.7}, {0, 2, 0.7}, {-2, 2, 0.7}}};
   const std::vector<TruePlane> truth = {floor};
   EXPECT_EQ(plane_metrics(truth, std::vector{found_table(-1, 1, 0.7)}).correct, 1u);
   EXPECT_EQ(plane_metrics(truth, std::vector{found_table(1, -1, 0.7)}).correct, 1u);
@@ -106,12 +106,16 @@ TEST(PlaneMetrics, KnowTheInsideOfAnOutlineThatIsNotConvex) {
 
 TEST(PlaneMetrics, FindAnLWhoseMiddleIsNotOnIt) {
   TruePlane floor = true_table();  // two arms, half a metre wide
-  floor.outline = {{-2, -2, 0.7},     {2, -2, 0.7},   {2, -1.5, 0.7},
-                   {-1.5, -1.5, 0.7}, {-1.5, 2, 0.7}, {-2, 2, 0.7}};
+  floor.parts = {{{-2, -2, 0.7},
+                  {2, -2, 0.7},
+                  {2, -1.5, 0.7},
+                  {-1.5, -1.5, 0.7},
+                  {-1.5, 2, 0.7},
+                  {-2, 2, 0.7}}};
   FoundPlane found;
   found.normal = floor.normal;
   found.d = floor.d;
-  found.outline = floor.outline;
+  found.outline = floor.parts[0];
   EXPECT_EQ(plane_metrics(std::vector{floor}, std::vector{found}).correct, 1u);
   found.outline = {{-2, -2, 0.7}, {2, -2, 0.7}, {2, 2, 0.7}, {-2, 2, 0.7}};
   EXPECT_EQ(plane_metrics(std::vector{floor}, std::vector{found}).correct, 0u)

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +61,16 @@ nlohmann::json world_json() {
       {"perpendicular", nlohmann::json::array()}};
 }
 
+// The front of a house, from x to x + 12, `deep` behind others.
+nlohmann::json front(int id, double x, double deep, int visible_frames) {
+  nlohmann::json outline = nlohmann::json::array();
+  for (const auto& [along, z] : {std::pair{0, 0}, {12, 0}, {12, 9}, {0, 9}}) {
+    outline.push_back(json_of({x + along, deep, double(z)}));
+  }
+  return {{"id", id},  {"label", "building"}, {"normal", {0, -1, 0}},
+          {"d", deep}, {"outline", outline},  {"visible_frames", visible_frames}};
+}
+
 // A folder that is there as long as the test.
 class WorldFiles : public ::testing::Test {
  protected:
@@ -88,6 +99,20 @@ class WorldFiles : public ::testing::Test {
 };
 
 // The run's world is another one: half as large, turned and moved. The alignment takes it back.
+TEST_F(WorldFiles, JoinTheFrontsOfARowOfHouses) {
+  nlohmann::json world = world_json();
+  // One after the other, in any order; one is set back, and one is on the other side of a road.
+  world["planes"] = {front(3, 0, 0, 5), front(1, 24, 0, 20), front(2, 12, 0, 7),
+                     front(4, 36, 0.1, 9), front(5, 50, 0, 8)};
+  const WorldTruth truth = read_world(write("world.json", world.dump()));
+  ASSERT_EQ(truth.planes.size(), 3u);
+  const auto row = std::find_if(truth.planes.begin(), truth.planes.end(),
+                                [](const TruePlane& plane) { return plane.parts.size() == 3; });
+  ASSERT_NE(row, truth.planes.end());
+  EXPECT_EQ(row->id, 1);
+  EXPECT_EQ(row->visible_frames, 20) << "of the front that is seen most";
+}
+
 TEST_F(WorldFiles, AreComparedAfterTheAlignmentOfTheTrajectory) {
   const TrajectoryAlignment alignment = {SE3(so3_exp({0.3, -0.5, 1.1}), {1, 2, 3}), 2.0};
   const SE3 back = alignment.T.inverse();
