@@ -162,6 +162,7 @@ RunSummary summarize(const RunDescription& run, const std::vector<FrameRecord>& 
                           result.reprojection.p95_px, result.reprojection.observations};
   if (!result.refusal.empty()) summary.refusals[result.refusal] = 1;
   summary.object_refusals = result.object_refusals;
+  summary.keyframe_times = result.keyframe_times;
   summary.problems = playback.problems;
   return summary;
 }
@@ -232,6 +233,10 @@ void print_outcome(const RunDescription& run, const std::vector<FrameRecord>& fr
   if (total != stages.end()) {
     std::printf("  tracking   %8.1f  ms a frame (median), %.1f ms (95th percentile)\n",
                 total->second.median_ms, total->second.p95_ms);
+  }
+  for (const auto& [name, time] : stage_times(result.keyframe_times)) {
+    std::printf("  %-10s %8.1f  ms a keyframe (median), %.1f ms (95th percentile)\n", name.c_str(),
+                time.median_ms, time.p95_ms);
   }
   std::printf("  results    %s\n", run.folder.c_str());
 }

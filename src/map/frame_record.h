@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace cairn {
 
@@ -24,6 +25,15 @@ struct FrameRecord {
   double predict_ms = 0;    ///< pose from the motion model or reference keyframe; initialisation
   double local_map_ms = 0;  ///< local map: search and motion-only adjustment
   double total_ms = 0;      ///< everything the frame waited for, mapping not counted
+};
+
+/// What keyframes cost beside the tracking of frames: milliseconds of each that went through a
+/// stage.
+struct KeyframeTimes {
+  std::vector<double> perception;  ///< networks, and what is made of their answers
+  std::vector<double> insertion;   ///< new points
+  std::vector<double> landmarks;   ///< planes and objects: association, fits, births
+  std::vector<double> adjustment;  ///< of the local window
 };
 
 }  // namespace cairn

@@ -18,6 +18,7 @@ struct KeyframePerception {
   DepthRange range;                    ///< of the whole picture's
   std::vector<SeenPlane> planes;
   std::vector<SeenObject> objects;
+  double milliseconds = 0;  ///< that it took
 };
 
 /// `camera`: with the lens, as the picture was taken. Where a detector gives no depth, that of the

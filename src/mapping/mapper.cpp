@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cairn/features/retrieval.h"
+#include "cairn/map/stopwatch.h"
 #include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/point_alignment.h"
 #include "cairn/mapping/point_creation.h"
@@ -58,6 +59,7 @@ bool Mapper::initialize(const InitialPair& initial) {
 }
 
 KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
+  const Timed timed(times_.insertion);
   // The reference may have been culled since the frame was tracked.
   const Keyframe* reference = map_.keyframes().find(candidate.reference);
   const SE3 T_wr = reference != nullptr
@@ -103,6 +105,8 @@ void Mapper::join(const KeyframePerception& seen) {
     if (k.timestamp() == seen.frame->timestamp) keyframe = id;
   });
   if (!keyframe.valid()) return;
+  times_.perception.push_back(seen.milliseconds);
+  const Timed timed(times_.landmarks);
   join_planes(keyframe, seen);
   join_objects(keyframe, seen);
   publish(current_);
@@ -152,6 +156,7 @@ void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
 }
 
 void Mapper::adjust(const std::atomic<bool>* abort) {
+  const Timed timed(times_.adjustment);
   if (map_.keyframes().size() > 2) {
     const AdjustmentSummary s = adjust_locally(map_, current_, options_.adjustment, abort);
     spdlog::debug("local adjustment: {}; readout {:.1f} ms", s.to_string(),

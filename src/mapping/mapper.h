@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/map/frame_record.h"
 #include "cairn/map/initial_pair.h"
 #include "cairn/map/map.h"
 #include "cairn/map/map_view.h"
@@ -69,6 +70,7 @@ class Mapper {
   ScaleEstimate scale() const;
   /// How often an object could not be born, by reason.
   const std::map<std::string, int>& object_refusals() const { return object_refusals_; }
+  const KeyframeTimes& times() const { return times_; }
   /// Keyframes that may show the same place: the `count` most alike, best first.
   std::vector<KeyframeId> similar_keyframes(const Features& features, int count) const;
   const std::vector<BuriedKeyframe>& buried() const { return buried_; }
@@ -86,6 +88,7 @@ class Mapper {
   Map map_;
   MetricScale scale_;
   std::map<std::string, int> object_refusals_;
+  KeyframeTimes times_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
   KeyframeId current_;

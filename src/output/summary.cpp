@@ -40,6 +40,14 @@ Json scale_json(const RunSummary::Scale& scale) {
       {"how", scale.how}, {"value", scale.value}, {"sigma", number(scale.sigma)}, {"parts", parts}};
 }
 
+Json stages_json(const std::map<std::string, StageTime>& stages) {
+  Json json = Json::object();
+  for (const auto& [name, time] : stages) {
+    json[name] = {{"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}};
+  }
+  return json;
+}
+
 }  // namespace
 
 std::map<std::string, StageTime> stage_times(std::span<const FrameRecord> frames) {
@@ -57,6 +65,16 @@ std::map<std::string, StageTime> stage_times(std::span<const FrameRecord> frames
       if (processed && frame.*member > 0) ms.push_back(frame.*member);
     }
     if (const auto time = stage_time(std::move(ms))) result[name] = *time;
+  }
+  return result;
+}
+
+std::map<std::string, StageTime> stage_times(const KeyframeTimes& times) {
+  std::map<std::string, StageTime> result;
+  for (const auto& [name, ms] :
+       {std::pair{"perception", &times.perception}, std::pair{"insertion", &times.insertion},
+        std::pair{"landmarks", &times.landmarks}, std::pair{"adjustment", &times.adjustment}}) {
+    if (const auto time = stage_time(*ms)) result[name] = *time;
   }
   return result;
 }
@@ -85,10 +103,6 @@ Json to_json(const RunSummary& summary) {
   if (!coverage && !summary.frames.empty()) {
     coverage = double(tracked) / double(summary.frames.size());
   }
-  Json stages = Json::object();
-  for (const auto& [name, time] : stage_times(summary.frames)) {
-    stages[name] = {{"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}};
-  }
   return {{"version", summary.version},
           {"command", summary.command},
           {"options", summary.options},
@@ -115,7 +129,8 @@ Json to_json(const RunSummary& summary) {
             {"p95_px", summary.reprojection.p95_px},
             {"observations", summary.reprojection.observations}}},
           {"scale", scale_json(summary.scale)},
-          {"stages", stages},
+          {"stages", stages_json(stage_times(summary.frames))},
+          {"keyframe_stages", stages_json(stage_times(summary.keyframe_times))},
           {"duration_s", summary.duration_s},
           {"peak_memory_mib", peak_memory_mib()},
           {"refusals", summary.refusals},

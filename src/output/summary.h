@@ -22,6 +22,9 @@ struct StageTime {
 /// skipped or dropped). A stage that never ran is left out.
 std::map<std::string, StageTime> stage_times(std::span<const FrameRecord> frames);
 
+/// The stages perception, insertion, landmarks and adjustment of keyframes, likewise.
+std::map<std::string, StageTime> stage_times(const KeyframeTimes& times);
+
 /// Number of frames in each state, under its name; all states are there.
 std::map<std::string, std::size_t> frames_by_state(std::span<const FrameRecord> frames);
 
@@ -61,6 +64,7 @@ struct RunSummary {
   std::string camera;       ///< one line
   std::string outcome;      ///< done, interrupted, or why no map was initialised
   std::vector<FrameRecord> frames;
+  KeyframeTimes keyframe_times;
   std::optional<double> coverage;  ///< tracked / with ground truth, or / all where there is none
   std::vector<Gap> gaps;
   int restarts = 0;

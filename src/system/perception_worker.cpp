@@ -1,5 +1,7 @@
 #include "cairn/system/perception_worker.h"
 
+#include "cairn/map/stopwatch.h"
+
 namespace cairn {
 
 PerceptionWorker::PerceptionWorker(std::unique_ptr<PlaneDetector> detector, const Camera& camera,
@@ -60,8 +62,11 @@ void PerceptionWorker::stop() {
 }
 
 KeyframePerception PerceptionWorker::see(const Task& task, DetectedFrame& detected) {
+  const Stopwatch watch;
   detected = detector_->detect(task.input);
-  return summarize_perception(detected, task.frame, camera_, view_);
+  KeyframePerception seen = summarize_perception(detected, task.frame, camera_, view_);
+  seen.milliseconds = watch.milliseconds();
+  return seen;
 }
 
 void PerceptionWorker::loop() {

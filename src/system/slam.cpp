@@ -4,12 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 
+#include "cairn/map/stopwatch.h"
 #include "cairn/system/frame_log.h"
 #include "cairn/system/mapping_schedule.h"
 #include "cairn/system/perception_worker.h"
@@ -38,11 +38,6 @@ Options resolved(Options options, const Camera& camera) {
       options.landmarks == Landmarks::kPpm || options.landmarks == Landmarks::kFull;
   options.mapping.objects.supports = options.landmarks == Landmarks::kFull;
   return options;
-}
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
 }
 
 }  // namespace
@@ -164,12 +159,12 @@ std::shared_ptr<Frame> Slam::Implementation::make_frame(const cv::Mat& picture, 
 
 FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Mat& depth) {
   Implementation& s = *implementation_;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   FrameResult result;
   FrameRecord& record = result.record;
   record.timestamp = timestamp;
   const std::shared_ptr<Frame> frame = s.make_frame(picture, timestamp);
-  record.extract_ms = milliseconds_since(start);
+  record.extract_ms = watch.milliseconds();
   const PerceptionInput input{picture, depth, timestamp};
   double mapping_ms = 0;
   if (!s.mapping) {
@@ -180,20 +175,20 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
     s.log_tracked();
     if (!s.lost && s.tracker.wants_keyframe(s.mapping->idle())) {
       record.keyframe = true;
-      const auto before = std::chrono::steady_clock::now();
+      const Stopwatch of_mapping;
       s.hand_over_keyframe();
-      mapping_ms = milliseconds_since(before);
+      mapping_ms = of_mapping.milliseconds();
     }
   } else {
     s.lose(frame, record);
   }
   if (record.keyframe) {
-    const auto before = std::chrono::steady_clock::now();
+    const Stopwatch of_mapping;
     if (s.perception) s.perception->look(frame, input);
     s.mapping->settle();
-    mapping_ms += milliseconds_since(before);
+    mapping_ms += of_mapping.milliseconds();
   }
-  record.total_ms = milliseconds_since(start) - mapping_ms;
+  record.total_ms = watch.milliseconds() - mapping_ms;
   result.features = s.seen_features(*frame, record.state);
   if (s.perception) {
     DetectedFrame found = s.perception->take_found();
@@ -206,10 +201,10 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
 
 void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
                                       FrameRecord& record) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   record.state = FrameState::kInitialising;
   const std::optional<InitialPair> pair = initializer.add(frame);
-  record.predict_ms = milliseconds_since(start);
+  record.predict_ms = watch.milliseconds();
   if (!pair) return;
   auto mapper = std::make_unique<Mapper>(view, options.mapping);
   if (!mapper->initialize(*pair)) return;
@@ -296,14 +291,14 @@ void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, Frame
 // A lost frame: asks where it is; goes on from the answer once there is one.
 bool Slam::Implementation::recover(const std::shared_ptr<Frame>& frame,
                                    const PerceptionInput& input, FrameRecord& record) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   if (!mapping->relocalizing()) {
     std::vector<SeenObject> objects;
     if (questions++ % kQuestionsALook == 1) objects = objects_in_sight(frame, input);
     mapping->relocalize(frame, options.seed + records.size(), std::move(objects));
   }
   const std::optional<MappingSchedule::Answer> answer = mapping->take_relocalization();
-  record.predict_ms = milliseconds_since(start);
+  record.predict_ms = watch.milliseconds();
   if (!answer || !answer->found) return false;
   tracker.start_from(answer->frame, answer->found->T_wc, answer->found->view,
                      answer->found->points);
@@ -380,6 +375,7 @@ SlamResult Slam::finish() {
   result.planes = describe_planes(map);
   result.objects = describe_objects(map);
   result.object_refusals = mapper.object_refusals();
+  result.keyframe_times = mapper.times();
   result.scale = mapper.scale();
   if (s.options.scale > 0) result.scale = given_scale(result.scale, s.options.scale);
   if (result.scale.known()) to_metres(result);

@@ -62,6 +62,7 @@ struct SlamResult {
   std::vector<MappedPlane> planes;
   std::vector<MappedObject> objects;
   std::map<std::string, int> object_refusals;  ///< how often one could not be born, by reason
+  KeyframeTimes keyframe_times;
   ScaleEstimate scale;
   double readout = 0;  ///< of the shutter: seconds from a picture's first row to its last
   ReprojectionError reprojection;

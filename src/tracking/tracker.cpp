@@ -1,26 +1,12 @@
 #include "cairn/tracking/tracker.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "cairn/map/independent_pictures.h"
+#include "cairn/map/stopwatch.h"
 
 namespace cairn {
 namespace {
-
-class Stopwatch {
- public:
-  /// Milliseconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 constexpr int kMinMatches = 20;      // of the motion model, before a wider search
 constexpr int kCautiousFrames = 3;   // after a (re)start, search wider

@@ -183,6 +183,7 @@ TEST(Summary, HoldsWhatTheRunDid) {
   summary.objects = 3;
   summary.scale = {"object sizes", 1.5, 0.1, {{"object sizes", 1.5, 0.1, 3}}};
   summary.keyframes = 12;
+  summary.keyframe_times.perception = {300, 100, 200};
   write_summary(folder / "summary.json", summary);
   const auto json = nlohmann::json::parse(content(folder / "summary.json"));
   EXPECT_EQ(json.at("frames"), 101);
@@ -192,6 +193,8 @@ TEST(Summary, HoldsWhatTheRunDid) {
   EXPECT_EQ(json.at("losses").at(0).at("recovered"), 2.0);
   EXPECT_TRUE(json.at("losses").at(1).at("recovered").is_null());
   EXPECT_EQ(json.at("stages").at("total").at("p95_ms"), 95);
+  EXPECT_EQ(json.at("keyframe_stages").at("perception").at("median_ms"), 200);
+  EXPECT_FALSE(json.at("keyframe_stages").contains("landmarks")) << "no keyframe has any";
   EXPECT_EQ(json.at("refusals").at("too little parallax"), 3);
   EXPECT_EQ(json.at("states").at("dropped"), 1);
   EXPECT_GT(json.at("peak_memory_mib"), 1);
