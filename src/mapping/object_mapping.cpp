@@ -8,6 +8,7 @@
 #include "cairn/geometry/ellipse_projection.h"
 #include "cairn/map/independent_pictures.h"
 #include "cairn/map/object_classes.h"
+#include "cairn/mapping/foreign_boxes.h"
 #include "cairn/mapping/object_support.h"
 
 namespace cairn {
@@ -184,6 +185,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
 }
 
 void settle_objects(Map& map, const ObjectMappingOptions& options) {
+  drop_foreign_boxes(map);
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     if (landmark.observations.empty()) return map.erase_object(id);
     update_evidence(map, landmark);

@@ -35,6 +35,7 @@ class Board {
   cv::Mat_<unsigned char> filled(const std::vector<Eigen::Vector3d>& polygon) const {
     cv::Mat_<unsigned char> mask = cv::Mat_<unsigned char>::zeros(size_);
     std::vector<cv::Point> corners;
+    corners.reserve(polygon.size());
     for (const Eigen::Vector3d& x : polygon) {
       corners.emplace_back(cell_of(u_.dot(x), 0), cell_of(v_.dot(x), 1));
     }

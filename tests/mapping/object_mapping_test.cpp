@@ -124,6 +124,21 @@ TEST_F(MapObjectsOfPictures, TwoObjectsThatBecomeOneAreFused) {
   EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup));
 }
 
+TEST_F(MapObjectsOfPictures, BoxesOfItsNeighbourDoNotCostAnObjectItsPlace) {
+  film(24, 50);
+  const Ellipsoid left = a_cup(), right = a_cup({0.15, 0, 1.2});
+  for (const KeyframeId id : keyframes) {
+    show(id, {noisy(seen_thing(map, id, left), 0.5), noisy(seen_thing(map, id, right), 0.5)});
+  }
+  ASSERT_THAT(objects_of(map), SizeIs(2));
+  ObjectLandmark& mixed = map.objects()[objects_of(map)[1]];
+  const auto other = map.objects()[objects_of(map)[0]].observations;
+  for (std::size_t i = 0; i < 15; ++i) mixed.observations[i].box = other[i].box;
+  settle_objects(map, options);
+  ASSERT_THAT(objects_of(map), SizeIs(2));
+  EXPECT_THAT(mixed.observations, SizeIs(9));
+}
+
 TEST_F(MapObjectsOfPictures, AThingStandsOnTheTableUnderItAndNotOnOneFarBelow) {
   film(12, 50);
   show_cup_everywhere();
