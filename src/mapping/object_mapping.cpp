@@ -186,6 +186,10 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
 
 void settle_objects(Map& map, const ObjectMappingOptions& options) {
   drop_foreign_boxes(map);
+  map.objects().for_each([&](ObjectId, ObjectLandmark& landmark) {
+    if (const BoxFit found = fit_to_boxes(map, landmark); found.fit.usable) accept(landmark, found);
+  });
+  drop_foreign_boxes(map);  // most boxes decide what a fit shows, and the others stand out
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     if (landmark.observations.empty()) return map.erase_object(id);
     update_evidence(map, landmark);
