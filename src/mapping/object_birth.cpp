@@ -18,7 +18,6 @@ constexpr std::size_t kFewPoints = 3;
 constexpr double kFarTooLarge = 3;     // σ of the class's size
 constexpr double kUprightOdds = 8;     // in the cost: things stand as usual rather than in any way
 constexpr double kShareOfSize = 0.65;  // of a thing's longest semi-axis, that its place may be off
-constexpr double kAnywhere = 0.25;     // of its distance: so unsure a place is none
 constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
 
 // Depths of what the middle of a box shows.
@@ -150,9 +149,8 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
     const Eigen::Vector3d eye = T_rw * map.camera_of(o).translation();
     distance += (eye - fit.ellipsoid.centre()).norm() / double(landmark.observations.size());
   }
-  const double of_size =
-      std::min(kShareOfSize * fit.ellipsoid.semi_axes.maxCoeff(), kAnywhere * distance);
-  const double near = std::max(options.max_sigma_place * distance, of_size);
+  const double near = std::max(options.max_sigma_place * distance,
+                               kShareOfSize * fit.ellipsoid.semi_axes.maxCoeff());
   if (!(std::sqrt(place.eigenvalues()[2]) < near)) return "place unsure";
   const double sigma_size = std::sqrt(fit.covariance.bottomRightCorner<3, 3>().sum()) / 3;
   if (!(sigma_size < options.max_sigma_size)) return "size unsure";

@@ -12,7 +12,7 @@ namespace cairn {
 struct ObjectBirthOptions {
   int min_views = 4;
   double min_span_deg = 4;        ///< between the directions from which it was seen
-  double min_agreeing = 0.5;      ///< share of the views that the fit explains
+  double min_agreeing = 0.6;      ///< share of the views that the fit explains
   double max_sigma_place = 0.15;  ///< of the centre, as a share of its distance from the cameras
   double max_sigma_size = 0.5;    ///< of the logarithm of its size
 };
