@@ -174,7 +174,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     map.observe_object(decisions[i].object, id, thing);
     if (landmark.observations.size() > kMostViews) {  // every other one of the older half
       landmark.observations.erase(landmark.observations.begin() + 1 +
-                                  (landmark.sightings * 2) % (kMostViews / 2));
+                                  2 * std::size_t{landmark.sightings} % (kMostViews / 2));
     }
     update_evidence(map, landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
