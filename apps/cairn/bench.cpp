@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "cairn/datasets/sequence.h"
 #include "cairn/geometry/error.h"
 #include "cairn/geometry/median.h"
+#include "cairn/map/stopwatch.h"
 #include "cairn/output/summary.h"
 #include "commands.h"
 #include "interrupt.h"
@@ -58,11 +58,11 @@ double time_orb(cv::ORB& orb, const cv::Mat& image) {
   cv::setNumThreads(1);
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   orb.detectAndCompute(image, cv::noArray(), keypoints, descriptors);
-  const auto end = std::chrono::steady_clock::now();
+  const double ms = watch.milliseconds();
   cv::setNumThreads(threads);
-  return std::chrono::duration<double, std::milli>(end - start).count();
+  return ms;
 }
 
 void time_tracking(FrameSource& source, const Camera& camera, std::uint64_t seed, Times& times) {

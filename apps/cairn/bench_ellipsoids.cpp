@@ -1,12 +1,12 @@
 #include "bench_ellipsoids.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "cairn/map/stopwatch.h"
 #include "cairn/optimization/object_fit.h"
 #include "cairn/synthetic/ellipsoid_trial.h"
 #include "commands.h"
@@ -84,12 +84,12 @@ void run_trial(const EllipsoidTrial& trial, const Form& form, Cell& cell) {
   }
   ObjectFitOptions options;
   options.form = form.form;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const ObjectFit fit =
       fit_object(trial.start, views, EllipsoidTrial::kPinhole, form.prior, options);
-  const auto end = std::chrono::steady_clock::now();
+  const double ms = watch.milliseconds();
   cell.overlaps.push_back(overlap(trial.truth, fit.ellipsoid));
-  cell.milliseconds.push_back(std::chrono::duration<double, std::milli>(end - begin).count());
+  cell.milliseconds.push_back(ms);
 }
 
 nlohmann::json to_json(const Cell& cell) {

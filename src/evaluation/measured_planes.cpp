@@ -44,7 +44,7 @@ void MeasuredPlanes::add_point(const Vector3d& x, const Vector3d& normal) {
     if (!(std::abs(distance) < options_.max_distance)) continue;
     if (!(std::abs(plane.normal.dot(normal)) > least)) continue;
     const Vector3d on_plane = x - distance * plane.normal;
-    if (distance_outside(on_plane, std::span(plane.outline), plane.normal) < -rims_[i]) {
+    if (distance_outside(on_plane, plane.outline, plane.normal) < -rims_[i]) {
       points_[i].push_back(x);
     }
   }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "cairn/geometry/polygon.h"
+
 namespace cairn {
 
 using Eigen::Vector3d;
@@ -17,15 +19,6 @@ double distance_to_segment(const Vector3d& x, const Vector3d& a, const Vector3d&
   const double length2 = ab.squaredNorm();
   const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
   return (a + t * ab - x).norm();
-}
-
-// Along the normal.
-Vector3d twice_area(std::span<const Vector3d> outline) {
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-    sum += (outline[i] - outline[0]).cross(outline[i + 1] - outline[0]);
-  }
-  return sum;
 }
 
 }  // namespace
@@ -65,7 +58,7 @@ double distance_outside(const Vector3d& x, std::span<const std::vector<Vector3d>
                         const Vector3d& normal) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::vector<Vector3d>& part : surface) {
-    nearest = std::min(nearest, distance_outside(x, std::span(part), normal));
+    nearest = std::min(nearest, distance_outside(x, part, normal));
   }
   return nearest;
 }
@@ -87,7 +80,7 @@ double share_on(std::span<const std::vector<Vector3d>> surface, const Vector3d& 
     const Eigen::Array2d cell(i % kPoints + 0.5, int(i / kPoints) + 0.5);
     const Eigen::Vector2d at = box.min().array() + cell / kPoints * box.sizes().array();
     const Vector3d x = foot + at.x() * u + at.y() * v;
-    if (distance_outside(x, std::span<const Vector3d>(flat), normal) > 0) continue;
+    if (distance_outside(x, flat, normal) > 0) continue;
     ++all;
     inside += distance_outside(x, surface, normal) <= margin;
   }

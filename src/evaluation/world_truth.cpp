@@ -66,18 +66,13 @@ bool one_surface(const TruePlane& a, const TruePlane& b) {
 
 // Takes in those that it goes on in.
 void join(TruePlane plane, std::vector<TruePlane>& planes) {
-  for (bool grown = true; grown;) {
-    grown = false;
-    for (auto other = planes.begin(); other != planes.end(); ++other) {
-      if (!one_surface(*other, plane)) continue;
-      plane.id = std::min(plane.id, other->id);
-      plane.visible_frames = std::max(plane.visible_frames, other->visible_frames);
-      plane.parts.insert(plane.parts.end(), other->parts.begin(), other->parts.end());
-      planes.erase(other);
-      grown = true;
-      break;
-    }
-  }
+  std::erase_if(planes, [&](const TruePlane& other) {
+    if (!one_surface(other, plane)) return false;
+    plane.id = std::min(plane.id, other.id);
+    plane.visible_frames = std::max(plane.visible_frames, other.visible_frames);
+    plane.parts.insert(plane.parts.end(), other.parts.begin(), other.parts.end());
+    return true;
+  });
   planes.push_back(std::move(plane));
 }
 

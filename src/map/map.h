@@ -204,6 +204,10 @@ class Map {
   KeyframeId first() const { return first_; }
 
  private:
+  /// f(T_rk, outlines): of each picture of a plane its frame in that of the reference.
+  template <class Function>
+  void for_each_view(PlaneId id, Function&& f) const;
+
   void move_planes(KeyframeId from, KeyframeId to);
   void move_objects(KeyframeId from, KeyframeId to);
 
@@ -212,10 +216,6 @@ class Map {
   double readout_ = 0, readout_estimate_ = 0;
   SlotMap<Keyframe, KeyframeId> keyframes_;
   SlotMap<MapPoint, PointId> points_;
-  /// f(T_rk, outlines): of each picture of a plane its frame in that of the reference.
-  template <class Function>
-  void for_each_view(PlaneId id, Function&& f) const;
-
   SlotMap<PlaneLandmark, PlaneId> planes_;
   std::vector<RelatedPlanes> relations_;
   SlotMap<ObjectLandmark, ObjectId> objects_;

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "cairn/geometry/polygon_triangles.h"
+#include "cairn/geometry/polygon.h"
 #include "cairn/output/atomic_file.h"
 
 namespace cairn {
@@ -58,9 +58,7 @@ void PlyModel::add_camera(const SE3& T_wc, double depth, const Rgb& colour) {
 
 void PlyModel::add_polygon(std::span<const Vector3d> corners, const Rgb& colour) {
   if (corners.size() < 3) return;
-  Vector3d normal = Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-    normal += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+  const Vector3d normal = twice_area(corners);
   const Vector3d u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
   std::vector<Eigen::Vector2f> flat;
   for (const Vector3d& corner : corners) {

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "cairn/geometry/polygon_triangles.h"
+#include "cairn/geometry/polygon.h"
 #include "cairn/synthetic/shapes/box.h"
 #include "cairn/synthetic/shapes/lathe.h"
 #include "cairn/synthetic/shapes/loft.h"

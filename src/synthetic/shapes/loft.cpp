@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/geometry/polygon_triangles.h"
+#include "cairn/geometry/polygon.h"
 #include "cairn/synthetic/shapes/surface.h"
 
 namespace cairn {

@@ -1,5 +1,6 @@
-#include "cairn/geometry/polygon_triangles.h"
+#include "cairn/geometry/polygon.h"
 
+#include <Eigen/Geometry>
 #include <numeric>
 
 namespace cairn {
@@ -24,6 +25,14 @@ bool is_ear(std::span<const Eigen::Vector2f> polygon, const std::vector<int>& le
 }
 
 }  // namespace
+
+Eigen::Vector3d twice_area(std::span<const Eigen::Vector3d> polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    sum += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
+  }
+  return sum;
+}
 
 std::vector<Eigen::Vector3i> polygon_triangles(std::span<const Eigen::Vector2f> polygon) {
   std::vector<int> left(polygon.size());
