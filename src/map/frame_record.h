@@ -32,7 +32,8 @@ struct FrameRecord {
 struct KeyframeTimes {
   std::vector<double> perception;  ///< networks, and what is made of their answers
   std::vector<double> insertion;   ///< new points
-  std::vector<double> landmarks;   ///< planes and objects: association, fits, births
+  std::vector<double> planes;      ///< association, fits, births, fusion
+  std::vector<double> objects;     ///< the same
   std::vector<double> adjustment;  ///< of the local window
 };
 

@@ -160,9 +160,8 @@ class Map {
   PlaneId add_plane(KeyframeId keyframe, const SeenPlane& seen);
   /// The keyframe saw a plane of the map: one more observation, votes and outline.
   void observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen);
-  /// Points that are inside of the masks of a plane three times of five, at least; at a mask's rim,
-  /// where what stands in front is likely, only if `rim`.
-  std::vector<PointId> points_in_masks(PlaneId id, bool rim) const;
+  /// Points that are inside of the masks of a plane three times of five, at least.
+  MaskedPoints points_in_masks(PlaneId id) const;
   /// Draws the outline anew from what all keyframes saw of the plane.
   void update_outline(PlaneId id);
   /// What each picture saw of a plane, on the plane as it is now; reference's frame.

@@ -79,16 +79,23 @@ std::vector<std::vector<Eigen::Vector3d>> Map::seen_outlines(PlaneId id) const {
   return outlines;
 }
 
-std::vector<PointId> Map::points_in_masks(PlaneId id, bool rim) const {
+MaskedPoints Map::points_in_masks(PlaneId id) const {
   const PlaneLandmark& landmark = planes_[id];
-  std::map<PointId, MaskVotes> votes = landmark.buried_votes;
-  for (const PlaneObservation& o : landmark.observations) {
-    count_votes(keyframes_[o.keyframe], o, [&](PointId p) -> MaskVotes& { return votes[p]; });
+  std::vector<std::pair<PointId, MaskVotes>> votes(points_.slots());
+  const auto votes_of = [&](PointId p) -> MaskVotes& {
+    votes[p.slot].first = p;
+    return votes[p.slot].second;
+  };
+  for (const auto& [p, buried] : landmark.buried_votes) {
+    if (points_.contains(p)) votes_of(p) = buried;
   }
-  std::vector<PointId> points;
+  for (const PlaneObservation& o : landmark.observations) {
+    count_votes(keyframes_[o.keyframe], o, votes_of);
+  }
+  MaskedPoints points;
   for (const auto& [p, v] : votes) {
-    const int inside = v.inside + (rim ? v.rim : 0);
-    if (2 * inside > 3 * v.outside && points_.contains(p)) points.push_back(p);
+    if (2 * v.inside > 3 * v.outside) points.inner.push_back(p);
+    if (2 * (v.inside + v.rim) > 3 * v.outside) points.all.push_back(p);
   }
   return points;
 }

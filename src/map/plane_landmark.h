@@ -44,6 +44,12 @@ struct MaskVotes {
   int inside = 0, rim = 0, outside = 0;
 };
 
+/// Points in the masks of a plane, in order of ids: well inside of them, or also at their rims,
+/// where what stands in front is likely.
+struct MaskedPoints {
+  std::vector<PointId> inner, all;
+};
+
 /// What a keyframe that is gone saw of a plane: its frame in that of the plane's reference, and
 /// outlines in its frame, as in PlaneObservation.
 struct BuriedOutline {

@@ -74,6 +74,8 @@ class SlotMap {
   }
 
   std::size_t size() const { return size_; }
+  /// The slots of all ids are below.
+  std::size_t slots() const { return slots_.size(); }
   bool empty() const { return size_ == 0; }
 
  private:

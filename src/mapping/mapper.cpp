@@ -106,13 +106,13 @@ void Mapper::join(const KeyframePerception& seen) {
   });
   if (!keyframe.valid()) return;
   times_.perception.push_back(seen.milliseconds);
-  const Timed timed(times_.landmarks);
   join_planes(keyframe, seen);
   join_objects(keyframe, seen);
   publish(current_);
 }
 
 void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
+  const Timed timed(times_.planes);
   Keyframe& looked_at = map_.keyframes()[keyframe];
   looked_at.depth = seen.depth;
   looked_at.depth_range = seen.range;
@@ -141,6 +141,7 @@ void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
 
 void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
   if (seen.objects.empty() && map_.objects().empty()) return;
+  const Timed timed(times_.objects);
   map_.up = find_up(map_);
   map_.units_a_metre_by_sizes.reset();
   if (scale_.sigma() > kTrusted) {

@@ -268,13 +268,10 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
     times.push_back(map.keyframes()[o.keyframe].timestamp());
   }
   landmark.independent = independent_pictures(std::move(times));
-  const auto measured = [&](bool rim) {
-    std::vector<PointId> points = map.points_in_masks(id, rim);
-    std::erase_if(points, [&](PointId p) { return map.points()[p].assumed; });
-    return points;
-  };
-  const std::vector<PointId> with_rim = measured(true);
-  std::vector<PointId> seen = measured(false);
+  auto [seen, with_rim] = map.points_in_masks(id);
+  const auto assumed = [&](PointId p) { return map.points()[p].assumed; };
+  std::erase_if(seen, assumed);
+  std::erase_if(with_rim, assumed);
   if (seen.size() < kFewPoints) seen = with_rim;
   if (!landmark.confirmed || (manhattan && is_askew(map, id))) {
     landmark.sigma_tilt = fit_to(map, id, with_rim, point_sigma, manhattan);

@@ -73,7 +73,8 @@ std::map<std::string, StageTime> stage_times(const KeyframeTimes& times) {
   std::map<std::string, StageTime> result;
   for (const auto& [name, ms] :
        {std::pair{"perception", &times.perception}, std::pair{"insertion", &times.insertion},
-        std::pair{"landmarks", &times.landmarks}, std::pair{"adjustment", &times.adjustment}}) {
+        std::pair{"planes", &times.planes}, std::pair{"objects", &times.objects},
+        std::pair{"adjustment", &times.adjustment}}) {
     if (const auto time = stage_time(*ms)) result[name] = *time;
   }
   return result;

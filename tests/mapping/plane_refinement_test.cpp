@@ -234,7 +234,7 @@ TEST_F(RefineLandmark, ThePointsInItsMasksSayWhereItLies) {
 TEST_F(RefineLandmark, PointsThatOneMaskHasAndTwoHaveNotAreNotAsked) {
   const auto wall = indices(0, 36), all = indices(0, 72);
   const PlaneId id = see_wall(3, {all, wall, wall}, {all, wall, wall});
-  EXPECT_THAT(map.points_in_masks(id, false), SizeIs(36));
+  EXPECT_THAT(map.points_in_masks(id).inner, SizeIs(36));
   EXPECT_EQ(landmark(id).share, 1);
 }
 

@@ -194,7 +194,7 @@ TEST(Summary, HoldsWhatTheRunDid) {
   EXPECT_TRUE(json.at("losses").at(1).at("recovered").is_null());
   EXPECT_EQ(json.at("stages").at("total").at("p95_ms"), 95);
   EXPECT_EQ(json.at("keyframe_stages").at("perception").at("median_ms"), 200);
-  EXPECT_FALSE(json.at("keyframe_stages").contains("landmarks")) << "no keyframe has any";
+  EXPECT_FALSE(json.at("keyframe_stages").contains("objects")) << "no keyframe has any";
   EXPECT_EQ(json.at("refusals").at("too little parallax"), 3);
   EXPECT_EQ(json.at("states").at("dropped"), 1);
   EXPECT_GT(json.at("peak_memory_mib"), 1);
