@@ -64,7 +64,8 @@ bool one_surface(const TruePlane& a, const TruePlane& b) {
          std::abs(a.normal.dot(corner) + a.d) < kJoint && (touch(a, b) || touch(b, a));
 }
 
-// Takes in those that it goes on in.
+// Takes in those that it goes on in. One pass is enough: what one of them goes on in is part of it
+// already.
 void join(TruePlane plane, std::vector<TruePlane>& planes) {
   std::erase_if(planes, [&](const TruePlane& other) {
     if (!one_surface(other, plane)) return false;

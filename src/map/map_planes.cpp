@@ -1,6 +1,8 @@
 // The planes of the map.
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "cairn/map/map.h"
 
@@ -81,7 +83,7 @@ std::vector<std::vector<Eigen::Vector3d>> Map::seen_outlines(PlaneId id) const {
 
 MaskedPoints Map::points_in_masks(PlaneId id) const {
   const PlaneLandmark& landmark = planes_[id];
-  std::vector<std::pair<PointId, MaskVotes>> votes(points_.slots());
+  std::vector<std::pair<PointId, MaskVotes>> votes(points_.slots());  // found faster than in a map
   const auto votes_of = [&](PointId p) -> MaskVotes& {
     votes[p.slot].first = p;
     return votes[p.slot].second;
