@@ -16,6 +16,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMiddle = 0.6;  // of a box, in which what is seen is mostly the thing itself
 constexpr std::size_t kFewPoints = 3;
 constexpr double kFarTooLarge = 3;     // σ of the class's size
+constexpr double kFarTooSmall = 5;     // the same: of a chair behind a table only the back is seen
 constexpr double kUprightOdds = 8;     // in the cost: things stand as usual rather than in any way
 constexpr double kShareOfSize = 0.65;  // of a thing's longest semi-axis, that its place may be off
 constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
@@ -158,7 +159,7 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   if (usual > 0) {
     const double off = std::log(std::cbrt(fit.ellipsoid.semi_axes.prod()) / usual);
     const double sigma = std::hypot(find_object_class(landmark.class_name())->sigma, 0.3);
-    if (std::abs(off) > kFarTooLarge * sigma) return "not of its class's size";
+    if (off > kFarTooLarge * sigma || off < -kFarTooSmall * sigma) return "not of its class's size";
   }
   return "";
 }

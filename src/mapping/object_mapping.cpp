@@ -198,8 +198,7 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
     const std::string reason = refusal(map, landmark, fit, options.birth);
     if (fit.usable) accept(landmark, found);
     const double all = landmark.sightings + landmark.missed;
-    landmark.confirmed = landmark.born && reason.empty() &&
-                         int(landmark.sightings) >= options.min_sightings &&
+    landmark.confirmed = landmark.born && reason.empty() && fit.agreeing >= options.min_sightings &&
                          landmark.missed <= kMostMissed * all;
     spdlog::debug(
         "object {}: {} pictures, {} missed, span {:.1f} deg, {}: {}", landmark.class_name(),

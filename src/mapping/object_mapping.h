@@ -12,7 +12,7 @@ namespace cairn {
 
 struct ObjectMappingOptions {
   bool supports = false;  ///< what stands on which plane is found and bound
-  int min_sightings = 5;  ///< pictures that an object of the final map must have
+  int min_sightings = 5;  ///< pictures that agree with an object of the final map
   double probation = 8;   ///< seconds after its last sighting within which a guess must be born
   int max_missed = 6;     ///< pictures that should have shown an object and did not, until it goes
   double max_gap = 0.05;  ///< metres between a thing and the plane that it stands on

@@ -10,7 +10,7 @@ namespace {
 // By what edges are off: a pixel, and a share of the box's size, of detectors' errors 0.03
 // (docs/perception_noise.md, `boxes.lasting`, `floor_px`), and as things are no ellipsoids 0.04.
 constexpr double kEdgeShare = 0.05, kEdgeFloor = 1;
-constexpr double kBorder = 2;  // pixels: edges nearer to the border are cut by it
+constexpr double kBorder = 2;  // pixels: edges nearer to the border, or within σ, are cut by it
 constexpr int kSteps = 4;      // along each edge
 
 std::optional<Box2> undistorted(const Box2& box, const Camera& camera) {
@@ -40,10 +40,12 @@ std::vector<SeenObject> see_objects(std::span<const DetectedObject> detected, co
     if (!box || !box->valid()) continue;
     SeenObject seen;
     seen.box = *box;
-    const bool left = d.box.x0 < picture.x0 + kBorder, top = d.box.y0 < picture.y0 + kBorder;
-    const bool right = d.box.x1 > picture.x1 - kBorder, bottom = d.box.y1 > picture.y1 - kBorder;
-    seen.cut = {left, top, right, bottom};
     seen.sigma = std::hypot(kEdgeFloor, kEdgeShare * (box->width() + box->height()) / 2);
+    // Detectors leave a gap between the border and a thing that goes on beyond it.
+    const double border = std::max(kBorder, seen.sigma);
+    const bool left = d.box.x0 < picture.x0 + border, top = d.box.y0 < picture.y0 + border;
+    const bool right = d.box.x1 > picture.x1 - border, bottom = d.box.y1 > picture.y1 - border;
+    seen.cut = {left, top, right, bottom};
     seen.class_name = d.class_name;
     seen.score = d.score;
     seen.thing = d.thing;

@@ -108,5 +108,16 @@ TEST(FindUp, IsTheNormalOfATableWhereOneIsSeen) {
   EXPECT_LT((up->direction - kUp).norm(), 1e-6);
 }
 
+// Chairs are about 0.37 m in semi-axes; a box shows them smaller where a table hides them.
+TEST(Refusal, OfAStrangeSizeIsSoonerATooLargeThings) {
+  for (const double size : {0.09, 1.2}) {
+    Film film(lying({0.2, 0.25, 0.2}), "chair", 40);
+    ObjectFit fit = film.fit().fit;
+    fit.ellipsoid.semi_axes = Vector3d::Constant(size);
+    const ObjectLandmark& landmark = film.map.objects()[testing::objects_of(film.map)[0]];
+    EXPECT_EQ(refusal(film.map, landmark, fit, {}), size > 1 ? "not of its class's size" : "");
+  }
+}
+
 }  // namespace
 }  // namespace cairn

@@ -86,6 +86,21 @@ TEST_F(MapObjectsOfPictures, BoxesThatDisagreeBearNothing) {
   EXPECT_THAT(objects_of(map), SizeIs(0));
 }
 
+TEST_F(MapObjectsOfPictures, OnlyPicturesThatAgreeCountForTheFinalMap) {
+  for (const int asked : {4, 5}) {
+    film(6, 50);
+    show_cup_everywhere();
+    ObjectLandmark& cup = map.objects()[objects_of(map)[0]];
+    for (const std::size_t i : {1, 3}) {
+      cup.observations[i].box.x0 += 60;
+      cup.observations[i].box.x1 += 60;
+    }
+    options.min_sightings = asked;
+    settle_objects(map, options);
+    EXPECT_THAT(objects_of(map), SizeIs(asked == 4 ? 1 : 0)) << "four of six agree";
+  }
+}
+
 TEST_F(MapObjectsOfPictures, WhatIsCutOnBothSidesWaitsForABetterPicture) {
   film(2, 10);
   SeenObject seen = seen_thing(map, keyframes[0], a_cup());

@@ -43,6 +43,14 @@ TEST(SeenObjects, AreCutWhereTheirBoxTouchesTheBorder) {
   EXPECT_THAT(seen[0].cut, ::testing::ElementsAre(true, false, false, true));
 }
 
+TEST(SeenObjects, AreCutWhereTheirBoxEndsBeforeTheBorderByNoMoreThanItsEdgesErr) {
+  const auto wide = see(cup({200, 200, 632, 470})), small = see(cup({600, 430, 632, 470}));
+  ASSERT_THAT(wide, SizeIs(1));
+  ASSERT_THAT(small, SizeIs(1));
+  EXPECT_THAT(wide[0].cut, ::testing::ElementsAre(false, false, true, true));
+  EXPECT_THAT(small[0].cut, ::testing::Each(false));
+}
+
 TEST(SeenObjects, OfABentPictureAreWhereThePinholeWouldSeeThem) {
   const Camera bent(Camera::Model::kRadialTangential, 640, 480, kCamera, {-0.25, 0.05, 0, 0, 0});
   const Box2 box{500, 60, 600, 140};
