@@ -37,20 +37,31 @@ bool says_where(const SeenObject& thing) {
 
 // Points of the keyframe that lie on things; those that moved off them go.
 void gather_points(Map& map, const Keyframe& keyframe) {
+  std::vector<std::pair<PointId, Eigen::Vector3d>> seen;
+  for (const PointId p : keyframe.points) {
+    if (const MapPoint* point = map.points().find(p)) seen.emplace_back(p, point->position);
+  }
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     const Ellipsoid in_world = map.object_in_world(id);
     const SE3 T_ew = in_world.T.inverse();
-    const auto inside = [&](PointId p) {
-      const MapPoint* point = map.points().find(p);
-      return point != nullptr &&
-             (T_ew * point->position).cwiseQuotient(in_world.semi_axes).norm() <= kInside;
+    const double reach = kInside * in_world.semi_axes.maxCoeff();
+    const auto inside = [&](const Eigen::Vector3d& X) {
+      if ((X - in_world.centre()).squaredNorm() > reach * reach) return false;  // most are not near
+      return (T_ew * X).cwiseQuotient(in_world.semi_axes).norm() <= kInside;
     };
     std::vector<PointId>& points = landmark.points;
-    std::erase_if(points, [&](PointId p) { return !inside(p); });
-    for (const PointId p : keyframe.points) {
-      if (p.valid() && inside(p)) points.push_back(p);
+    std::erase_if(points, [&](PointId p) {
+      const MapPoint* point = map.points().find(p);
+      return point == nullptr || !inside(point->position);
+    });
+    const auto known = static_cast<std::ptrdiff_t>(points.size());  // sorted
+    for (const auto& [p, X] : seen) {
+      if (inside(X) && !std::binary_search(points.begin(), points.begin() + known, p)) {
+        points.push_back(p);
+      }
     }
-    std::sort(points.begin(), points.end());
+    std::sort(points.begin() + known, points.end());
+    std::inplace_merge(points.begin(), points.begin() + known, points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
   });
 }
@@ -71,25 +82,34 @@ void bear(Map& map, ObjectLandmark& landmark, const ObjectBirthOptions& options,
   }
 }
 
+bool are_one(const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark& b,
+             const Ellipsoid& eb) {
+  if (!a.born && !b.born) return false;  // two guesses: too little is known of either
+  const double reach = ea.semi_axes.maxCoeff() + eb.semi_axes.maxCoeff();
+  if ((ea.centre() - eb.centre()).squaredNorm() > reach * reach) return false;  // most are apart
+  if (!may_be_one_class(a.class_name(), b.class_name())) return false;
+  return intersection_over_union(ea, eb) > kOneThing ||
+         (ea.contains(eb.centre()) && eb.contains(ea.centre()));
+}
+
 void fuse_objects(Map& map) {
-  std::vector<ObjectId> ids;
-  map.objects().for_each([&](ObjectId id, const ObjectLandmark&) { ids.push_back(id); });
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    for (std::size_t k = i + 1; k < ids.size(); ++k) {
-      const ObjectLandmark *a = map.objects().find(ids[i]), *b = map.objects().find(ids[k]);
+  std::vector<std::pair<ObjectId, Ellipsoid>> all;
+  map.objects().for_each(
+      [&](ObjectId id, const ObjectLandmark&) { all.emplace_back(id, map.object_in_world(id)); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = i + 1; k < all.size(); ++k) {
+      const ObjectLandmark *a = map.objects().find(all[i].first),
+                           *b = map.objects().find(all[k].first);
       if (a == nullptr || b == nullptr) continue;
-      if (!a->born && !b->born) continue;  // two guesses: too little is known of either
-      if (!may_be_one_class(a->class_name(), b->class_name())) continue;
-      const Ellipsoid ea = map.object_in_world(ids[i]), eb = map.object_in_world(ids[k]);
-      const bool one = intersection_over_union(ea, eb) > kOneThing ||
-                       (ea.contains(eb.centre()) && eb.contains(ea.centre()));
-      if (!one) continue;
+      if (!are_one(*a, all[i].second, *b, all[k].second)) continue;
       const bool first = a->born != b->born ? a->born : a->sightings >= b->sightings;
       spdlog::debug("objects: two {} are one thing", a->class_name());
-      map.merge_objects(first ? ids[k] : ids[i], first ? ids[i] : ids[k]);
-      ObjectLandmark& whole = map.objects()[first ? ids[i] : ids[k]];
+      auto& [kept, in_world] = all[first ? i : k];
+      map.merge_objects(all[first ? k : i].first, kept);
+      ObjectLandmark& whole = map.objects()[kept];
       update_evidence(map, whole);
       if (const BoxFit found = fit_to_boxes(map, whole); found.fit.usable) accept(whole, found);
+      in_world = map.object_in_world(kept);
     }
   }
 }
