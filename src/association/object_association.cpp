@@ -11,7 +11,8 @@
 namespace cairn {
 namespace {
 
-constexpr double kTie = 0.9;  // of one point: what overlap may add where as many points agree
+constexpr double kTie = 0.9;        // of one point: what overlap may add where as many points agree
+constexpr double kSamePlace = 0.7;  // IoU of a box and a thing of any class that are one
 
 // An object in front of the camera, as the camera sees it.
 struct Candidate {
@@ -116,13 +117,19 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
     const double overlap = intersection_over_union(c.box, seen[i].box);
     return overlap >= options.min_overlap && may_be(seen[i], c) ? overlap : 0.0;
   });
+  // No two things are in one place: there a class outside of the family is the detector's mistake.
+  pair_up(decisions, taken, candidates, [&](std::size_t i, const Candidate& c) {
+    const double overlap = intersection_over_union(c.box, seen[i].box);
+    return overlap >= kSamePlace ? overlap : 0.0;
+  });
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (decisions[i].kind == ObjectDecision::Kind::kKnown) continue;
-    // Something of its kind is there already, or may be.
+    // Something is there already, or may be.
     for (const Candidate& c : candidates) {
-      if (!may_be_one_class(seen[i].class_name, c.class_name)) continue;
-      if (points_inside(c, seen[i].box) >= options.th_low ||
-          intersection_over_union(c.box, seen[i].box) >= options.min_overlap) {
+      const bool kin = may_be_one_class(seen[i].class_name, c.class_name);
+      const double overlap = intersection_over_union(c.box, seen[i].box);
+      if (overlap >= (kin ? options.min_overlap : kSamePlace) ||
+          (kin && points_inside(c, seen[i].box) >= options.th_low)) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }

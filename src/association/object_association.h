@@ -25,8 +25,8 @@ struct ObjectDecision {
 /// q_j), with p the points of object j that the camera sees inside of box i and K the largest of
 /// them; equal costs are told apart by overlap. A pair is accepted from th_high on, where classes
 /// are of one family and box and projected centre agree. What is left is assigned by overlap alone,
-/// which is how things without texture are known again. What is still left is new below th_low,
-/// and unclear above.
+/// which is how things without texture are known again, and where a box and a thing of any class
+/// fill the same place they are one. What is still left is new below th_low, and unclear above.
 std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyframe,
                                               std::span<const SeenObject> seen,
                                               const ObjectAssociationOptions& options);

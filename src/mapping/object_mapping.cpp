@@ -15,6 +15,7 @@ namespace cairn {
 namespace {
 
 constexpr double kOneThing = 0.25;  // IoU of two ellipsoids of one family that are one thing
+constexpr double kOnePlace = 0.4;   // the same, of any two: things do not share their place
 constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
 constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
 constexpr double kCovered = 0.3;      // of what is seen where a thing should be, before it
@@ -87,9 +88,10 @@ bool are_one(const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark&
   if (!a.born && !b.born) return false;  // two guesses: too little is known of either
   const double reach = ea.semi_axes.maxCoeff() + eb.semi_axes.maxCoeff();
   if ((ea.centre() - eb.centre()).squaredNorm() > reach * reach) return false;  // most are apart
-  if (!may_be_one_class(a.class_name(), b.class_name())) return false;
-  return intersection_over_union(ea, eb) > kOneThing ||
-         (ea.contains(eb.centre()) && eb.contains(ea.centre()));
+  const double overlap = intersection_over_union(ea, eb);
+  const bool within = ea.contains(eb.centre()) && eb.contains(ea.centre());
+  if (!may_be_one_class(a.class_name(), b.class_name())) return overlap > kOnePlace && within;
+  return overlap > kOneThing || within;
 }
 
 void fuse_objects(Map& map) {

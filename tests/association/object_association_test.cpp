@@ -69,10 +69,21 @@ TEST_F(ObjectAssociation, GivesAThingToOneBoxOnly) {
 }
 
 TEST_F(ObjectAssociation, SaysThatAThingElsewhereOrOfAnotherKindIsNew) {
-  const auto decisions = decide({seen_thing(map, looking, a_cup({0, 0.25, 1.2})),
-                                 seen_thing(map, looking, left, "keyboard")});
+  SeenObject keyboard = seen_thing(map, looking, left, "keyboard");
+  keyboard.box.x1 += keyboard.box.width();
+  const auto decisions = decide({seen_thing(map, looking, a_cup({0, 0.25, 1.2})), keyboard});
   EXPECT_EQ(decisions[0].kind, Kind::kNew);
   EXPECT_EQ(decisions[1].kind, Kind::kNew);
+}
+
+TEST_F(ObjectAssociation, TakesAThingOfAnotherKindInTheSamePlaceForAMistakenName) {
+  const SeenObject wrong = seen_thing(map, looking, left, "microwave");
+  const auto alone = decide({wrong});
+  EXPECT_EQ(alone[0].kind, Kind::kKnown);
+  EXPECT_EQ(alone[0].object, known[0]);
+  const auto both = decide({wrong, seen_thing(map, looking, left)});
+  EXPECT_EQ(both[1].object, known[0]) << "one of its own kind comes first";
+  EXPECT_EQ(both[0].kind, Kind::kUnclear);
 }
 
 TEST_F(ObjectAssociation, DecidesNothingBetweenTheThresholds) {

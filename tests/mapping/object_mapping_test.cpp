@@ -139,6 +139,19 @@ TEST_F(MapObjectsOfPictures, TwoObjectsThatBecomeOneAreFused) {
   EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup));
 }
 
+TEST_F(MapObjectsOfPictures, OfTwoNamesOneThingKeepsTheOneThatMorePicturesGive) {
+  film(12, 50);
+  show_cup_everywhere("mouse");
+  const ObjectId mouse = objects_of(map)[0];
+  ObjectLandmark copy = map.objects()[mouse];
+  copy.votes = {{"donut", 0.5}};
+  copy.sightings -= 3;
+  map.objects().insert(copy);
+  show(keyframes.back(), {});
+  ASSERT_THAT(objects_of(map), ::testing::ElementsAre(mouse));
+  EXPECT_EQ(map.objects()[mouse].class_name(), "mouse");
+}
+
 TEST_F(MapObjectsOfPictures, BoxesOfItsNeighbourDoNotCostAnObjectItsPlace) {
   film(24, 50);
   const Ellipsoid left = a_cup(), right = a_cup({0.15, 0, 1.2});
