@@ -24,7 +24,7 @@ class ObjectAssociation : public ::testing::Test {
     const std::vector<PointId> ids = testing::points_of(map);
     first = keyframes_in(map).front();
     looking = keyframes_in(map).back();
-    for (int i = 0; i < 2; ++i) {
+    for (long i = 0; i < 2; ++i) {
       const Ellipsoid& thing = i == 0 ? left : right;
       known[i] = map.add_object(first, seen_thing(map, first, thing), thing);
       map.set_object_in_world(known[i], thing);

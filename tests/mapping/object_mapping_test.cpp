@@ -113,7 +113,8 @@ TEST_F(MapObjectsOfPictures, WhatIsCutOnBothSidesWaitsForABetterPicture) {
 
 TEST_F(MapObjectsOfPictures, AnObjectThatShouldBeSeenAndIsNotDies) {
   film(60, 40);
-  for (int i = 0; i < 12; ++i) show(keyframes[4 * i], {seen_thing(map, keyframes[4 * i], a_cup())});
+  for (std::size_t i = 0; i < 12; ++i)
+    show(keyframes[4 * i], {seen_thing(map, keyframes[4 * i], a_cup())});
   ASSERT_THAT(objects_of(map), SizeIs(1));
   ASSERT_TRUE(map.objects()[objects_of(map)[0]].born);
   for (int i = 0; i < 47 && !map.objects().empty(); ++i) show(keyframes[i + 1], {});
