@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cairn/geometry/ellipse_projection.h"
 #include "cairn/map/independent_pictures.h"
@@ -38,8 +39,10 @@ bool says_where(const SeenObject& thing) {
 
 // Points of the keyframe that lie on things; those that moved off them go.
 void gather_points(Map& map, const Keyframe& keyframe) {
-  std::vector<std::pair<PointId, Eigen::Vector3d>> seen;
-  for (const PointId p : keyframe.points) {
+  std::vector<PointId> ids = keyframe.points;
+  std::sort(ids.begin(), ids.end());
+  std::vector<std::pair<PointId, Eigen::Vector3d>> seen;  // in order, as the points of things are
+  for (const PointId p : ids) {
     if (const MapPoint* point = map.points().find(p)) seen.emplace_back(p, point->position);
   }
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
@@ -55,13 +58,10 @@ void gather_points(Map& map, const Keyframe& keyframe) {
       const MapPoint* point = map.points().find(p);
       return point == nullptr || !inside(point->position);
     });
-    const auto known = static_cast<std::ptrdiff_t>(points.size());  // sorted
+    const auto known = static_cast<std::ptrdiff_t>(points.size());
     for (const auto& [p, X] : seen) {
-      if (inside(X) && !std::binary_search(points.begin(), points.begin() + known, p)) {
-        points.push_back(p);
-      }
+      if (inside(X)) points.push_back(p);
     }
-    std::sort(points.begin() + known, points.end());
     std::inplace_merge(points.begin(), points.begin() + known, points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
   });
@@ -88,10 +88,11 @@ bool are_one(const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark&
   if (!a.born && !b.born) return false;  // two guesses: too little is known of either
   const double reach = ea.semi_axes.maxCoeff() + eb.semi_axes.maxCoeff();
   if ((ea.centre() - eb.centre()).squaredNorm() > reach * reach) return false;  // most are apart
-  const double overlap = intersection_over_union(ea, eb);
   const bool within = ea.contains(eb.centre()) && eb.contains(ea.centre());
-  if (!may_be_one_class(a.class_name(), b.class_name())) return overlap > kOnePlace && within;
-  return overlap > kOneThing || within;
+  if (may_be_one_class(a.class_name(), b.class_name())) {
+    return within || intersection_over_union(ea, eb) > kOneThing;
+  }
+  return within && intersection_over_union(ea, eb) > kOnePlace;
 }
 
 void fuse_objects(Map& map) {

@@ -108,7 +108,7 @@ TEST(FindUp, IsTheNormalOfATableWhereOneIsSeen) {
   EXPECT_LT((up->direction - kUp).norm(), 1e-6);
 }
 
-// Chairs are about 0.37 m in semi-axes; a box shows them smaller where a table hides them.
+// Chairs are about 0.41 m in semi-axes; a box shows them smaller where a table hides them.
 TEST(Refusal, OfAStrangeSizeIsSoonerATooLargeThings) {
   for (const double size : {0.09, 1.2}) {
     Film film(lying({0.2, 0.25, 0.2}), "chair", 40);
