@@ -5,6 +5,7 @@
 
 #include "cairn/geometry/se3.h"
 #include "cairn/map/frame.h"
+#include "cairn/map/point_patch.h"
 
 namespace cairn {
 
@@ -17,6 +18,7 @@ struct InitialPair {
   std::shared_ptr<const Frame> frame1, frame2;
   SE3 T_21;
   std::vector<Point> points;
+  std::shared_ptr<const Picture> picture1 = {}, picture2 = {};  ///< if points are to be aligned
 };
 
 }  // namespace cairn

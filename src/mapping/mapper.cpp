@@ -43,7 +43,7 @@ bool Mapper::initialize(const InitialPair& initial) {
     map_.points()[id].colour = initial.frame1->features.keypoints[p.keypoint1].colour;
     map_.update_descriptor(id);
   }
-  const AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, nullptr);
+  const AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, nullptr);
   const double depth = map_.depth_quantile(first, 0.5);
   if (!summary.usable || depth <= 0 || int(map_.points().size()) < kMinInitialPoints) return false;
   // One unit of the map is the median depth of its first picture, until something metric is known.
@@ -53,6 +53,9 @@ bool Mapper::initialize(const InitialPair& initial) {
     p.position /= depth;
     map_.update_geometry(id);
   });
+  map_.keyframes()[first].picture = initial.picture1;
+  k2.picture = initial.picture2;
+  align_points(map_, first);
   current_ = second;
   publish(second);
   return true;
@@ -172,16 +175,18 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   OdometryBlocks path(map_);  // one adjustment after the other must not lead away from it
-  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, false, abort, &path);
+  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, abort, &path);
   if (options_.adjustment.estimate_readout) find_motions(map_);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
   if (fused > 0) align_points(map_, map_.newest());
   spdlog::info("full adjustment: {}; then {} points fused; readout {:.2f} ms", summary.to_string(),
                fused, 1000 * map_.readout_estimate());
-  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, false, abort, &path);
+  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, abort, &path);
   if (options_.refine_lens) {
-    summary = adjust_fully(map_, options_.adjustment, true, abort, &path);
+    const AdjustmentSummary lens = cairn::refine_lens(map_, options_.adjustment, abort, &path);
+    spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());
+    if (lens.usable) summary = lens;
   }
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);

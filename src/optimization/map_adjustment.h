@@ -37,10 +37,15 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
 
 /// Adjusts everything; the first keyframe is held, and so is the unit of the map, and where points
 /// are few how keyframes lay to each other. Runs twice: once with all observations, once without
-/// those that the first run shows to be wrong. With `lens`, the correction of the lens is
-/// estimated, too. `path`: how keyframes lay to each other, as tracking had them; null: as they lie
-/// now.
-AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, bool lens,
+/// those that the first run shows to be wrong. `path`: how keyframes lay to each other, as tracking
+/// had them; null: as they lie now.
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
                                const std::atomic<bool>* abort, OdometryBlocks* path = nullptr);
+
+/// Adjusts everything once more, after `adjust_fully`, together with the correction of the lens.
+/// Only if the correction explains a share of the cost that noise does not, it is believed and
+/// the map changed; else the summary is not `usable`.
+AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options,
+                              const std::atomic<bool>* abort, OdometryBlocks* path = nullptr);
 
 }  // namespace cairn

@@ -42,7 +42,7 @@ OptionTable::OptionTable(Options& o) {
   add("mapping.min_parallax_deg", o.mapping.min_parallax_deg, "degrees", {0.1, 30}, "between the rays of a new point");
   add("mapping.match_ratio", o.mapping.match_ratio, "", {0.3, 1}, "of a new point: distance of its descriptor over that of the next best");
   add("mapping.redundancy", o.mapping.redundancy, "", {0.5, 1}, "a keyframe goes when this share of its points is seen by three others");
-  add("mapping.refine_lens", o.mapping.refine_lens, "estimate in the full adjustment what the calibration got wrong");
+  add("mapping.refine_lens", o.mapping.refine_lens, "correct at last what the calibration got wrong, where pictures clearly show it");
   add("mapping.window", o.mapping.adjustment.window, "keyframes", {3, 200}, "that a local adjustment moves");
   add("mapping.fixed", o.mapping.adjustment.fixed, "keyframes", {2, 500}, "around them that hold it, at most");
   add("mapping.local_iterations", o.mapping.adjustment.local_iterations, "steps", {1, 100}, "of a local adjustment, at most");

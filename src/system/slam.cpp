@@ -73,6 +73,7 @@ struct Slam::Implementation {
   bool place_by_objects(const MappingSchedule::Answer& answer,
                         const std::shared_ptr<const Frame>& frame);
   void log_tracked();
+  std::shared_ptr<const Picture> picture_to_align() const;
   void hand_over_keyframe();
   void deliver(KeyframePerception seen);
   void restart();
@@ -203,7 +204,7 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
                                       FrameRecord& record) {
   const Stopwatch watch;
   record.state = FrameState::kInitialising;
-  const std::optional<InitialPair> pair = initializer.add(frame);
+  const std::optional<InitialPair> pair = initializer.add(frame, picture_to_align());
   record.predict_ms = watch.milliseconds();
   if (!pair) return;
   auto mapper = std::make_unique<Mapper>(view, options.mapping);
@@ -253,13 +254,16 @@ void Slam::Implementation::log_tracked() {
           sightings_of(*t.frame, t.points, t.aligned), t.last_birth);
 }
 
+// The present one, to keep; null where keypoints stay at their corners.
+std::shared_ptr<const Picture> Slam::Implementation::picture_to_align() const {
+  if (!options.tracking.align) return nullptr;
+  return std::make_shared<Picture>(Picture{extractor.pyramid().clone(), &undistorter});
+}
+
 void Slam::Implementation::hand_over_keyframe() {
   const TrackedFrame& t = tracker.last();
   KeyframeCandidate candidate{t.frame, t.reference, t.T_rc, t.points, t.aligned};
-  if (options.tracking.align) {
-    candidate.picture =
-        std::make_shared<Picture>(Picture{extractor.pyramid().clone(), &undistorter});
-  }
+  candidate.picture = picture_to_align();
   tracker.keyframe_made();
   mapping->insert(std::move(candidate), std::move(sighting));
   sighting = {};

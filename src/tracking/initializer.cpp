@@ -14,8 +14,10 @@ constexpr int kMaxOctave = 2;  // coarse keypoints are too uncertain to start fr
 Initializer::Initializer(const View& view, const InitializerOptions& options, std::uint64_t seed)
     : view_(view), options_(options), seed_(seed) {}
 
-void Initializer::start(std::shared_ptr<const Frame> frame) {
+void Initializer::start(std::shared_ptr<const Frame> frame,
+                        std::shared_ptr<const Picture> picture) {
   reference_ = std::move(frame);
+  picture_ = std::move(picture);
   followed_.clear();
   for (const Keypoint& kp : reference_->features.keypoints) followed_.emplace_back(kp.x, kp.y);
 }
@@ -61,7 +63,8 @@ int Initializer::follow(const Frame& frame) {
   return count;
 }
 
-std::optional<InitialPair> Initializer::add(std::shared_ptr<const Frame> frame) {
+std::optional<InitialPair> Initializer::add(std::shared_ptr<const Frame> frame,
+                                            std::shared_ptr<const Picture> picture) {
   if (static_cast<int>(frame->size()) < options_.min_matches) {
     refusal_ = "the picture shows only " + std::to_string(frame->size()) +
                " keypoints; it may be dark, blurred or without texture";
@@ -69,14 +72,14 @@ std::optional<InitialPair> Initializer::add(std::shared_ptr<const Frame> frame) 
     return std::nullopt;
   }
   if (!reference_ || frame->timestamp - reference_->timestamp > options_.max_wait) {
-    start(std::move(frame));
+    start(std::move(frame), std::move(picture));
     return std::nullopt;
   }
   const int matches = follow(*frame);
   if (matches < options_.min_matches) {
     refusal_ =
         "only " + std::to_string(matches) + " keypoints were found again in the next pictures";
-    start(std::move(frame));
+    start(std::move(frame), std::move(picture));
     return std::nullopt;
   }
   std::vector<Eigen::Vector2d> pixels1, pixels2;
@@ -96,7 +99,7 @@ std::optional<InitialPair> Initializer::add(std::shared_ptr<const Frame> frame) 
     refusal_ = result.refusal;
     return std::nullopt;
   }
-  InitialPair pair{reference_, frame, result.T_21, {}};
+  InitialPair pair{reference_, frame, result.T_21, {}, picture_, std::move(picture)};
   for (std::size_t k = 0; k < keypoints1.size(); ++k) {
     if (!result.triangulated[k]) continue;
     pair.points.push_back(

@@ -24,13 +24,15 @@ class Initializer {
  public:
   Initializer(const View& view, const InitializerOptions& options, std::uint64_t seed);
 
-  /// The pair, once there is one; until then `refusal()` says why not.
-  std::optional<InitialPair> add(std::shared_ptr<const Frame> frame);
+  /// The pair, once there is one; until then `refusal()` says why not. `picture`: of the frame,
+  /// kept for those who look at the pair.
+  std::optional<InitialPair> add(std::shared_ptr<const Frame> frame,
+                                 std::shared_ptr<const Picture> picture = {});
   const std::string& refusal() const { return refusal_; }
   void reset() { reference_.reset(); }
 
  private:
-  void start(std::shared_ptr<const Frame> frame);
+  void start(std::shared_ptr<const Frame> frame, std::shared_ptr<const Picture> picture);
   int follow(const Frame& frame);
 
   View view_;
@@ -38,8 +40,9 @@ class Initializer {
   std::uint64_t seed_;
   std::uint64_t attempts_ = 0;
   std::shared_ptr<const Frame> reference_;
-  std::vector<Eigen::Vector2f> followed_;  // where each reference keypoint was seen last
-  std::vector<int> match_;                 // keypoint of the current frame, or -1
+  std::shared_ptr<const Picture> picture_;  // of the reference
+  std::vector<Eigen::Vector2f> followed_;   // where each reference keypoint was seen last
+  std::vector<int> match_;                  // keypoint of the current frame, or -1
   std::string refusal_ = "no picture was seen";
 };
 

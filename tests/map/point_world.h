@@ -24,10 +24,12 @@ class PointWorld {
  public:
   struct Options {
     int count = 1700;
-    double noise = 0.6;       ///< pixels at octave 0
-    double bit_flips = 0.05;  ///< share of the bits of a descriptor
-    int clutter = 100;        ///< keypoints of nothing a frame
-    double readout = 0;       ///< of a rolling shutter, seconds
+    double noise = 0.6;        ///< pixels at octave 0
+    double bit_flips = 0.05;   ///< share of the bits of a descriptor
+    int clutter = 100;         ///< keypoints of nothing a frame
+    double readout = 0;        ///< of a rolling shutter, seconds
+    double memory = 0;         ///< of noise: how alike that of a point is from frame to frame
+    LensCorrection lens = {};  ///< what the calibration gets wrong
   };
 
   /// Points from 3 to 8 in front of the camera at the origin.
@@ -61,8 +63,10 @@ class PointWorld {
           static_cast<int>(std::lround(std::log(p.base_distance / X.norm()) / std::log(1.2)));
       if (X.z() < 0.3 || octave < 0 || octave >= view.levels()) continue;
       const double dx = random_.gaussian(), dy = random_.gaussian();
+      const double fresh = std::sqrt(1 - options_.memory * options_.memory);
+      points_[i].noise = options_.memory * p.noise + fresh * Eigen::Vector2d(dx, dy);
       const Eigen::Vector2d pixel =
-          rolling(X, velocity) + options_.noise * view.scale(octave) * Eigen::Vector2d(dx, dy);
+          rolling(X, velocity) + options_.noise * view.scale(octave) * p.noise;
       if (!view.contains(pixel)) continue;
       add(*frame, pixel, octave, p.angle, noisy(p.descriptor));
       sight.points.push_back(static_cast<int>(i));
@@ -113,7 +117,8 @@ class PointWorld {
     Eigen::Vector3d position;
     Descriptor descriptor;
     float angle;
-    double base_distance;  ///< shows in octave 0
+    double base_distance;            ///< shows in octave 0
+    Eigen::Vector2d noise = {0, 0};  ///< when last seen
   };
   struct Sight {
     SE3 T_wc;
@@ -144,10 +149,10 @@ class PointWorld {
 
   // Where the row sees a point that is read at the moment when the point is there.
   Eigen::Vector2d rolling(const Eigen::Vector3d& X_c, const Vector6d& velocity) const {
-    Eigen::Vector2d pixel = kCamera.project(X_c);
+    Eigen::Vector2d pixel = options_.lens.project(kCamera, X_c);
     for (int i = 0; i < (options_.readout != 0 ? 10 : 0); ++i) {
       const SE3 T_mid_row = SE3::exp(moment(pixel.y()) * options_.readout * velocity);
-      pixel = kCamera.project(T_mid_row.inverse() * X_c);
+      pixel = options_.lens.project(kCamera, T_mid_row.inverse() * X_c);
     }
     return pixel;
   }

@@ -4,6 +4,7 @@
 
 #include "cairn/geometry/median.h"
 #include "map/links.h"
+#include "map/painted_wall.h"
 #include "mapping/drive.h"
 
 namespace cairn {
@@ -60,6 +61,48 @@ TEST(MapperStart, IsNearTheTruthInMostWorlds) {
     EXPECT_LT(errors.back(), 0.25) << seed;
   }
   EXPECT_LT(median(errors), 0.12);
+}
+
+// The corners of the second picture are up to half a pixel off.
+TEST(MapperStart, SeesItsPointsInBothPicturesWhereTheyLookAlike) {
+  const testing::PaintedWall wall;
+  testing::Random random(65);
+  const SE3 T_12(so3_exp({0.01, 0, 0.01}), Eigen::Vector3d(0.2, 0.03, 0.05));
+  std::vector<Eigen::Vector3d> points;
+  for (double x = -0.6; x < 0.65; x += 0.1) {
+    for (double y = -0.4; y < 0.45; y += 0.1) points.emplace_back(x, y, testing::PaintedWall::kZ);
+  }
+  const auto see = [&](const SE3& T_wc, double off) {
+    auto frame = std::make_shared<Frame>();
+    frame->timestamp = T_wc.translation().x();
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector2d pixel = wall.pixel(T_wc, point);
+      frame->features.keypoints.push_back(
+          {static_cast<float>(pixel.x() + random.uniform(-off, off)),
+           static_cast<float>(pixel.y() + random.uniform(-off, off))});
+      frame->features.descriptors.emplace_back();
+    }
+    frame->grid.build(frame->features.keypoints);
+    return frame;
+  };
+  InitialPair pair{see(SE3(), 0), see(T_12, 0.5), T_12.inverse(), {}};
+  for (std::uint32_t i = 0; i < points.size(); ++i) pair.points.push_back({i, i, points[i]});
+  pair.picture1 = std::make_shared<Picture>(wall.show(SE3()));
+  pair.picture2 = std::make_shared<Picture>(wall.show(T_12));
+  Mapper mapper(View(wall.camera(), 4, 1.2, 1), {});
+  ASSERT_TRUE(mapper.initialize(pair));
+  const Keyframe& second = mapper.map().keyframes()[mapper.map().newest()];
+  std::size_t aligned = 0;
+  double worst = 0;
+  mapper.map().points().for_each([&](PointId, const MapPoint& p) {
+    if (!p.observations.front().aligned() || !p.observations.back().aligned()) return;
+    const std::uint32_t keypoint = p.observations.back().keypoint;
+    worst = std::max(worst,
+                     (wall.pixel(T_12, points[keypoint]) - second.frame->pixel(keypoint)).norm());
+    ++aligned;
+  });
+  EXPECT_GT(aligned, 0.8 * double(points.size()));
+  EXPECT_LT(worst, 0.2);
 }
 
 TEST_F(MapperTest, RefusesToStartFromAFewPoints) {

@@ -61,7 +61,7 @@ TEST(FullAdjustment, BringsADisturbedMapBackToTheTruth) {
   disturb(map, 1, 0.02, 0.05, 0.05);
   const int before = observations_of(map);
   const double disturbed = errors_of(map, world).median;
-  const AdjustmentSummary summary = adjust_fully(map, {}, false, nullptr);
+  const AdjustmentSummary summary = adjust_fully(map, {}, nullptr);
   EXPECT_TRUE(summary.usable) << summary.to_string();
   EXPECT_LT(summary.final_rms, summary.initial_rms);
   const auto errors = errors_of(map, world);
@@ -87,7 +87,7 @@ TEST(FullAdjustment, KeepsTheUnitOfTheMap) {
     return std::sqrt(sum);
   };
   const double before = spread();
-  ASSERT_TRUE(adjust_fully(map, {}, false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(map, {}, nullptr).usable);
   EXPECT_NEAR(spread() / before, 1, 1e-9);
 }
 
@@ -141,7 +141,7 @@ double error_of_a_torn_walk(bool path_is_known) {
   Map map = testing::true_map(world, walk(8, 0.25));
   OdometryBlocks path(map);
   tear(map, SE3(so3_exp({0, 0.1, 0}), {0.5, 0, 0}));
-  EXPECT_TRUE(adjust_fully(map, {}, false, nullptr, path_is_known ? &path : nullptr).usable);
+  EXPECT_TRUE(adjust_fully(map, {}, nullptr, path_is_known ? &path : nullptr).usable);
   return errors_of(map, world).camera;
 }
 
@@ -150,23 +150,68 @@ TEST(FullAdjustment, LeadsBackToThePathThatItIsGiven) {
   EXPECT_LT(error_of_a_torn_walk(true), 0.3 * error_of_a_torn_walk(false));
 }
 
+// Only a camera that turns about all its axes shows its lens.
+std::vector<SE3> turning_walk() {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 25; ++i) {
+    const Eigen::Quaterniond turned =
+        so3_exp({0.2 * std::sin(2 * i), 0.2 * std::cos(2 * i), 1.2 * std::sin(i)});
+    poses.push_back(along(i * 0.08) * SE3(turned, {0, 0, 0.05 * i}));
+  }
+  return poses;
+}
+
+TEST(LensRefinement, FindsWhatTheCalibrationGetsWrong) {
+  const LensCorrection lens{{0.01, 0.01, 0, 2, -3}};
+  PointWorld world(40, {.count = 3000, .noise = 0.2, .lens = lens});
+  Map map = testing::true_map(world, turning_walk());
+  ASSERT_TRUE(adjust_fully(map, {}, nullptr).usable);
+  const double bent = errors_of(map, world).median;
+  const AdjustmentSummary summary = refine_lens(map, {}, nullptr);
+  ASSERT_TRUE(summary.usable) << summary.to_string();
+  EXPECT_LT(errors_of(map, world).median, 0.7 * bent);
+  const auto& found = map.lens().values;
+  EXPECT_NEAR(found[0], 0.01, 0.003);
+  EXPECT_NEAR(found[1], 0.01, 0.003);
+  EXPECT_NEAR(found[3], 2, 1);
+  EXPECT_NEAR(found[4], -3, 1);
+}
+
+// Errors that a point keeps from frame to frame look a little like those of a lens.
+TEST(LensRefinement, LeavesACalibrationAloneThatIsRight) {
+  for (int seed = 41; seed < 44; ++seed) {
+    PointWorld world(seed, {.noise = 0.6, .memory = 0.95});
+    Map map = testing::true_map(world, turning_walk());
+    ASSERT_TRUE(adjust_fully(map, {}, nullptr).usable);
+    const std::vector<double> before = numbers_of(map);
+    EXPECT_FALSE(refine_lens(map, {}, nullptr).usable);
+    EXPECT_TRUE(map.lens().is_identity());
+    EXPECT_EQ(numbers_of(map), before);
+  }
+}
+
+TEST(LensRefinement, OfAnEmptyMapIsRefused) {
+  Map map(testing::point_view());
+  EXPECT_FALSE(refine_lens(map, {}, nullptr).usable);
+}
+
 TEST(FullAdjustment, FindsHowTheShutterRolls) {
   RollingWalk walk(0.025);
-  ASSERT_TRUE(adjust_fully(walk.map, {}, false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(walk.map, {}, nullptr).usable);
   EXPECT_NEAR(walk.map.readout(), 0.025, 0.001);
   EXPECT_LT(walk.worst_rotation_deg(), 0.1);
 
   RollingWalk blind(0.025);
   AdjustmentOptions options;
   options.estimate_readout = false;
-  ASSERT_TRUE(adjust_fully(blind.map, options, false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(blind.map, options, nullptr).usable);
   EXPECT_EQ(blind.map.readout(), 0);
   EXPECT_GT(blind.worst_rotation_deg(), 2 * walk.worst_rotation_deg());
 }
 
 TEST(FullAdjustment, FindsThatAShutterDoesNotRoll) {
   RollingWalk walk(1e-9);  // its frames say where rows were read
-  ASSERT_TRUE(adjust_fully(walk.map, {}, false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(walk.map, {}, nullptr).usable);
   EXPECT_NEAR(walk.map.readout_estimate(), 0, 0.001);
   EXPECT_EQ(walk.map.readout(), 0);
 }
@@ -203,7 +248,7 @@ TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
   }
   ASSERT_GT(wrong.size(), 100u);
   disturb(map, 2, 0.01, 0.02, 0.02);
-  const AdjustmentSummary summary = adjust_fully(map, {}, false, nullptr);
+  const AdjustmentSummary summary = adjust_fully(map, {}, nullptr);
   ASSERT_TRUE(summary.usable);
   int left = 0;
   for (const auto& [p, k] : wrong) left += map.points().contains(p) && map.keypoint_of(p, k) >= 0;
@@ -216,7 +261,7 @@ TEST(FullAdjustment, ErasesObservationsThatAreWrong) {
 
 TEST(FullAdjustment, OfAnEmptyMapIsRefused) {
   Map map(testing::point_view());
-  EXPECT_FALSE(adjust_fully(map, {}, false, nullptr).usable);
+  EXPECT_FALSE(adjust_fully(map, {}, nullptr).usable);
 }
 
 TEST(LocalAdjustment, BringsTheWindowBackToTheTruth) {
@@ -288,8 +333,8 @@ TEST(Adjustment, StopsEarlyWhenAskedToAndLeavesAUsableMap) {
   const int before = observations_of(map);
   const std::atomic<bool> abort{true};
   for (int round = 0; round < 2; ++round) {
-    const AdjustmentSummary summary = round == 0 ? adjust_locally(map, map.newest(), {}, &abort)
-                                                 : adjust_fully(map, {}, false, &abort);
+    const AdjustmentSummary summary =
+        round == 0 ? adjust_locally(map, map.newest(), {}, &abort) : adjust_fully(map, {}, &abort);
     EXPECT_LE(summary.iterations, 2);
     EXPECT_EQ(broken_links(map), "");
     EXPECT_GT(observations_of(map), before / 2);
@@ -303,7 +348,7 @@ TEST(Adjustment, SameMapSameBytes) {
     Map map = testing::true_map(world, walk(7, 0.25));
     disturb(map, 7, 0.01, 0.02, 0.02);
     adjust_locally(map, map.newest(), {}, nullptr);
-    adjust_fully(map, {}, false, nullptr);
+    adjust_fully(map, {}, nullptr);
     return numbers_of(map);
   };
   EXPECT_EQ(run(), run());

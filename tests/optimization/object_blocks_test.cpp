@@ -93,7 +93,7 @@ TEST(ObjectsInAnAdjustment, ComeToTheirBoxesInAFullOneAndInALocalOne) {
     AdjustmentOptions options;
     options.local_iterations = 40;
     options.window = options.fixed = 2;  // two keyframes of six are outside, the reference perhaps
-    ASSERT_TRUE((full ? adjust_fully(map, options, false, nullptr)
+    ASSERT_TRUE((full ? adjust_fully(map, options, nullptr)
                       : adjust_locally(map, map.newest(), options, nullptr))
                     .usable);
     const Ellipsoid found = in_world(map, id);
@@ -111,7 +111,7 @@ TEST(ObjectsInAnAdjustment, ComeToTheirBoxesInThePaperFormToo) {
   const double before = intersection_over_union(in_world(map, id), truth);
   AdjustmentOptions options;
   options.objects.observation.form = options.objects.size.form = FactorForm::kPaper;
-  ASSERT_TRUE(adjust_fully(map, options, false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
   EXPECT_GT(intersection_over_union(in_world(map, id), truth), before);
 }
 
@@ -130,7 +130,7 @@ TEST(ObjectsInAnAdjustment, PullADisplacedCamera) {
     keyframe.T_wc = truth * SE3(so3_exp(Vector3d(0, 0.03, 0)), Vector3d(0, 0.08, 0));
     AdjustmentOptions options;
     options.objects.observation.use = objects;
-    ASSERT_TRUE(adjust_fully(map, options, false, nullptr).usable);
+    ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
     const double error = (truth.inverse() * map.keyframes()[lost].T_wc).log().norm();
     if (objects) {
       EXPECT_LT(error, 0.02);
@@ -171,7 +171,7 @@ TEST(ObjectsInAnAdjustment, StayInTheirBoxesHoweverOftenTheMapIsAdjusted) {
 
 TEST(ObjectsInAnAdjustment, ThatAreNotBornOrSeenOnceTakeNoPart) {
   Map without = points_map();
-  ASSERT_TRUE(adjust_fully(without, {}, false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(without, {}, nullptr).usable);
   for (const bool born : {false, true}) {
     Map map = points_map();
     const ObjectId id = add_object(map, thing({0.3, 0.1, 3}));
@@ -180,7 +180,7 @@ TEST(ObjectsInAnAdjustment, ThatAreNotBornOrSeenOnceTakeNoPart) {
     landmark.born = born;
     if (born) landmark.observations.resize(1);
     const Ellipsoid before = landmark.ellipsoid;
-    ASSERT_TRUE(adjust_fully(map, {}, false, nullptr).usable);
+    ASSERT_TRUE(adjust_fully(map, {}, nullptr).usable);
     EXPECT_EQ((landmark.ellipsoid.T.matrix() - before.T.matrix()).norm(), 0);
     EXPECT_EQ((landmark.ellipsoid.semi_axes - before.semi_axes).norm(), 0);
     map.objects().erase(id);
@@ -215,7 +215,7 @@ TEST(ObjectsInAnAdjustment, AreDrawnToThePlaneThatTheyStandOn) {
     options.objects.observation.sigma = 10;
     options.objects.support.sigma = 0.02;
     options.objects.support.use = support;
-    ASSERT_TRUE(adjust_fully(map, options, false, nullptr).usable);
+    ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
     const Ellipsoid found = in_world(map, id);
     gaps[support] = std::abs(wall.signed_distance(found.centre())) - reach(found);
   }
@@ -228,7 +228,7 @@ TEST(ObjectsInAnAdjustment, SameMapSameBytes) {
     Map map = points_map();
     for (const double x : {-0.4, 0.5}) displace(map, add_object(map, thing({x, 0.1, 3})));
     adjust_locally(map, map.newest(), {}, nullptr);
-    adjust_fully(map, {}, false, nullptr);
+    adjust_fully(map, {}, nullptr);
     return numbers_of(map);
   };
   EXPECT_EQ(run(), run());

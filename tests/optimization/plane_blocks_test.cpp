@@ -82,8 +82,8 @@ TEST(PlanesInAnAdjustment, ComeToTheTruthAndDoNotWorsenThePoses) {
   Map with = wall_map(), without = wall_map();
   const PlaneId wall = testing::planes_of(with).at(0);
   const double before = angle_between(with.plane_in_world(wall), kWall);
-  ASSERT_TRUE(adjust_fully(with, {}, false, nullptr).usable);
-  ASSERT_TRUE(adjust_fully(without, without_planes(), false, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(with, {}, nullptr).usable);
+  ASSERT_TRUE(adjust_fully(without, without_planes(), nullptr).usable);
   EXPECT_LT(angle_between(with.plane_in_world(wall), kWall), 0.2 * before);
   EXPECT_THAT(with.plane_in_world(wall), IsNearPlane(kWall, 0.6, 0.04));
   EXPECT_LT(camera_error(with), 0.02);
@@ -99,7 +99,7 @@ double off_the_wall(std::size_t known) {
   const PlaneId wall = testing::planes_of(map).at(0);
   const auto ids = points_of(map);
   for (std::size_t i = known; i < kOnWall; ++i) map.set_plane_of(ids[i], {});
-  EXPECT_TRUE(adjust_fully(map, {}, false, nullptr).usable);
+  EXPECT_TRUE(adjust_fully(map, {}, nullptr).usable);
   double sum = 0;
   for (std::size_t i = 0; i < 20; ++i) {
     const double d = map.plane_in_world(wall).signed_distance(map.points()[ids[i]].position);
@@ -118,7 +118,7 @@ TEST(PlanesInAnAdjustment, OfPointsAloneOrOfObservationsAloneComeToTheTruth) {
     AdjustmentOptions options;
     options.planes.point_on_plane.use = by_points;
     options.planes.observation.use = !by_points;
-    ASSERT_TRUE(adjust_fully(map, options, false, nullptr).usable);
+    ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
     EXPECT_THAT(map.plane_in_world(testing::planes_of(map).at(0)), IsNearPlane(kWall, 0.8, 0.05))
         << (by_points ? "points" : "observations");
   }
@@ -148,7 +148,7 @@ TEST(PlanesInAnAdjustment, DoNotMoveWhereAllTheirFactorsAreOff) {
     AdjustmentOptions options = without_planes();
     options.planes.parallel.use = relations;  // which hold on to nothing
     const Eigen::Vector4d before = map.planes()[wall].plane.coefficients();
-    ASSERT_TRUE(adjust_fully(map, options, false, nullptr).usable);
+    ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
     EXPECT_EQ((map.planes()[wall].plane.coefficients() - before).norm(), 0);
   }
 }
@@ -170,7 +170,7 @@ class RelatedPatches : public ::testing::TestWithParam<bool> {
     AdjustmentOptions options;
     options.planes.parallel.sigma = options.planes.perpendicular.sigma = 0.2;
     options.planes.parallel.use = options.planes.perpendicular.use = use;
-    EXPECT_TRUE(adjust_fully(map, options, false, nullptr).usable);
+    EXPECT_TRUE(adjust_fully(map, options, nullptr).usable);
     EXPECT_LT(camera_error(map), 0.02);
     return angle_between(map.plane_in_world(a), map.plane_in_world(b)) * 180 / M_PI;
   }

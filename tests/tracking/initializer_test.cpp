@@ -84,6 +84,21 @@ TEST(Initializer, RefusesPicturesThatHaveNothingInCommon) {
   EXPECT_FALSE(initializer.refusal().empty());
 }
 
+TEST(Initializer, KeepsThePicturesOfThePair) {
+  PointWorld world(10);
+  Initializer initializer(point_view(), {}, 3);
+  std::map<const Frame*, std::shared_ptr<const Picture>> pictures;
+  std::optional<InitialPair> pair;
+  for (int i = 0; i < 40 && !pair; ++i) {
+    const auto frame = world.show(along(0.04 * i), i * kFrame);
+    pictures[frame.get()] = std::make_shared<Picture>();
+    pair = initializer.add(frame, pictures[frame.get()]);
+  }
+  ASSERT_TRUE(pair.has_value());
+  EXPECT_EQ(pair->picture1, pictures[pair->frame1.get()]);
+  EXPECT_EQ(pair->picture2, pictures[pair->frame2.get()]);
+}
+
 TEST(Initializer, DrawsTheSamePairFromTheSameSeed) {
   auto run = [] {
     PointWorld world(9);
