@@ -69,8 +69,11 @@ TEST(MapperStart, SeesItsPointsInBothPicturesWhereTheyLookAlike) {
   testing::Random random(65);
   const SE3 T_12(so3_exp({0.01, 0, 0.01}), Eigen::Vector3d(0.2, 0.03, 0.05));
   std::vector<Eigen::Vector3d> points;
-  for (double x = -0.6; x < 0.65; x += 0.1) {
-    for (double y = -0.4; y < 0.45; y += 0.1) points.emplace_back(x, y, testing::PaintedWall::kZ);
+  points.reserve(117);
+  for (int column = 0; column < 13; ++column) {
+    for (int row = 0; row < 9; ++row) {
+      points.emplace_back(0.1 * column - 0.6, 0.1 * row - 0.4, testing::PaintedWall::kZ);
+    }
   }
   const auto see = [&](const SE3& T_wc, double off) {
     auto frame = std::make_shared<Frame>();
