@@ -22,8 +22,7 @@ constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a
 constexpr double kCovered = 0.3;      // of what is seen where a thing should be, before it
 constexpr double kMostMissed = 0.75;  // of the pictures that should show a thing of the final map
 // Detectors see some things in one picture of three, for seconds.
-constexpr int kPatience = 2;            // pictures that miss a thing, a picture that shows it
-constexpr std::size_t kMostViews = 60;  // observations of an object: more say the same again
+constexpr int kPatience = 2;  // pictures that miss a thing, a picture that shows it
 
 void update_evidence(Map& map, ObjectLandmark& landmark) {
   std::vector<double> times;
@@ -195,9 +194,9 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     }
     ObjectLandmark& landmark = map.objects()[decisions[i].object];
     map.observe_object(decisions[i].object, id, thing);
-    if (landmark.observations.size() > kMostViews) {  // every other one of the older half
+    if (std::ssize(landmark.observations) > kMostViews) {  // every other one of the older half
       landmark.observations.erase(landmark.observations.begin() + 1 +
-                                  2 * std::size_t{landmark.sightings} % (kMostViews / 2));
+                                  2 * landmark.sightings % (kMostViews / 2));
     }
     update_evidence(map, landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
