@@ -80,6 +80,8 @@ struct PlaneLandmark {
   /// How far its points lie off it, robustly (1.48 times the median), as a share of their viewing
   /// distance: surfaces are not flat, and things lie on them.
   double spread = 1;
+  /// How far from flat it is by what its points' observations say, a share of the viewing distance.
+  double roughness = 1;
   bool denied = false;  ///< most pictures of others say that, by its label, it cannot stand so
   /// What its observations are worth: pictures that follow each other err alike.
   double independent = 1;

@@ -9,6 +9,7 @@
 #include "cairn/geometry/median.h"
 #include "cairn/map/plane_labels.h"
 #include "cairn/mapping/plane_refinement.h"
+#include "cairn/mapping/plane_roughness.h"
 #include "cairn/mapping/upward.h"
 
 namespace cairn {
@@ -184,6 +185,7 @@ void update_evidence(Map& map, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
     refine_landmark(map, id, options.association.point_sigma, options.manhattan);
     landmark.spread = spread(map, id);
+    landmark.roughness = plane_roughness(map, id);
     landmark.denied = denied_by_labels(map, id, up);
     landmark.confirmed = confirmed(map, id, options);
   });

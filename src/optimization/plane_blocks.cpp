@@ -17,9 +17,6 @@ namespace {
 constexpr std::size_t kMinPoints = 3;        // of a plane in the adjustment, that it takes part
 constexpr std::size_t kMaxHeldPoints = 200;  // outside of the adjustment, that hold a plane
 constexpr double kRadians = std::numbers::pi / 180;
-// Of a plane's spread, what is the surface's: the rest is errors of the points' own depths, of
-// which their observations know.
-constexpr double kOfSurface = 0.3;
 constexpr double kFlattest = 0.001;      // share of the viewing distance
 constexpr double kPointsToBeSure = 100;  // half as sure of it with so many
 
@@ -83,8 +80,8 @@ void PlaneBlocks::add_points(Entry& entry) {
   const PlaneLandmark& landmark = map_.planes()[entry.id];
   double* reference = poses_->at(landmark.reference);
   // How far from flat, by many points; where they are few a plane may be young, and not one.
-  const double usual = std::max(options_.point_on_plane.sigma, landmark.spread);
-  const double own = std::max(kFlattest, kOfSurface * landmark.spread);
+  const double usual = std::max(options_.point_on_plane.sigma, landmark.roughness);
+  const double own = std::max(kFlattest, landmark.roughness);
   const double n = double(std::count_if(landmark.points.begin(), landmark.points.end(),
                                         [&](PointId p) { return !map_.points()[p].assumed; }));
   const double flat =

@@ -50,7 +50,7 @@ Map wall_map() {
   const auto ids = points_of(map);
   for (std::size_t i = 0; i < kOnWall; ++i) map.set_plane_of(ids[i], wall);
   map.planes()[wall].confirmed = true;
-  map.planes()[wall].spread = 0.01;
+  map.planes()[wall].roughness = 0.003;
   map.planes()[wall].plane = disturbed(seen_from(poses[0], wall_corners()), 5, 0.03).plane;
   Random random(23);
   for (const PointId id : ids) map.points()[id].position *= 1 + 0.02 * random.gaussian();
