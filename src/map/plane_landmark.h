@@ -81,6 +81,7 @@ struct PlaneLandmark {
   /// distance: surfaces are not flat, and things lie on them.
   double spread = 1;
   /// How far from flat it is by what its points' observations say, a share of the viewing distance.
+  /// Of those that are confirmed only: points of others are not held to them.
   double roughness = 1;
   bool denied = false;  ///< most pictures of others say that, by its label, it cannot stand so
   /// What its observations are worth: pictures that follow each other err alike.

@@ -184,7 +184,7 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
                fused, 1000 * map_.readout_estimate());
   if (fused > 0) summary = adjust_fully(map_, options_.adjustment, abort, &path);
   if (options_.refine_lens) {
-    const AdjustmentSummary lens = cairn::refine_lens(map_, options_.adjustment, abort, &path);
+    const AdjustmentSummary lens = refine_lens(map_, options_.adjustment, abort, &path);
     spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());
     if (lens.usable) summary = lens;
   }

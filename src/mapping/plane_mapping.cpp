@@ -185,9 +185,9 @@ void update_evidence(Map& map, const PlaneMappingOptions& options) {
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
     refine_landmark(map, id, options.association.point_sigma, options.manhattan);
     landmark.spread = spread(map, id);
-    landmark.roughness = plane_roughness(map, id);
     landmark.denied = denied_by_labels(map, id, up);
     landmark.confirmed = confirmed(map, id, options);
+    if (landmark.confirmed) landmark.roughness = plane_roughness(map, id);
   });
 }
 

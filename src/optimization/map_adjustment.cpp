@@ -66,10 +66,10 @@ std::unique_ptr<MapProblem> whole_map(Map& map, const AdjustmentOptions& options
   std::vector<PointId> points;
   map.points().for_each([&](PointId id, const MapPoint&) { points.push_back(id); });
   if (free.empty() || points.empty()) return nullptr;
-  auto adjustment = std::make_unique<MapProblem>(
-      map, std::move(free), std::move(fixed), std::move(points), options, width, true, refine_lens);
-  adjustment->hold_steps(path);
-  return adjustment;
+  auto problem = std::make_unique<MapProblem>(map, std::move(free), std::move(fixed),
+                                              std::move(points), options, width, true, refine_lens);
+  problem->hold_steps(path);
+  return problem;
 }
 
 }  // namespace
@@ -100,12 +100,12 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
     fixed.push_back(*oldest);
     free.erase(oldest);
   }
-  MapProblem adjustment(map, std::move(free), std::move(fixed), std::move(points), options);
-  AdjustmentSummary summary = adjustment.solve(options.local_iterations, 1e-4, abort);
+  MapProblem problem(map, std::move(free), std::move(fixed), std::move(points), options);
+  AdjustmentSummary summary = problem.solve(options.local_iterations, 1e-4, abort);
   if (!summary.usable) return summary;
-  adjustment.write_back();
+  problem.write_back();
   // An aborted fit is no judge of observations.
-  if (abort == nullptr || !abort->load()) summary.outliers = adjustment.erase_outliers(kGate);
+  if (abort == nullptr || !abort->load()) summary.outliers = problem.erase_outliers(kGate);
   return summary;
 }
 
@@ -116,17 +116,17 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
   if (path == nullptr) path = &now.emplace(map);
   double initial_rms = 0;
   for (int round = 0; round < 2; ++round) {
-    const auto adjustment = whole_map(map, options, round == 0 ? kFirstWidth : 1, false, *path);
-    if (adjustment == nullptr) return summary;
+    const auto problem = whole_map(map, options, round == 0 ? kFirstWidth : 1, false, *path);
+    if (problem == nullptr) return summary;
     const int outliers = summary.outliers;
-    summary = adjustment->solve(options.full_iterations, 1e-7, abort);
+    summary = problem->solve(options.full_iterations, 1e-7, abort);
     if (round == 0) initial_rms = summary.initial_rms;
     summary.initial_rms = initial_rms;
     if (!summary.usable) return summary;
-    adjustment->keep_unit();
-    adjustment->write_back();
+    problem->keep_unit();
+    problem->write_back();
     // The first fit is bent by what is wrong: only what is far off goes.
-    summary.outliers = outliers + adjustment->erase_outliers(round == 0 ? 4 * kGate : kGate);
+    summary.outliers = outliers + problem->erase_outliers(round == 0 ? 4 * kGate : kGate);
   }
   return summary;
 }
@@ -135,15 +135,15 @@ AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options,
                               const std::atomic<bool>* abort, OdometryBlocks* path) {
   std::optional<OdometryBlocks> now;
   if (path == nullptr) path = &now.emplace(map);
-  const auto adjustment = whole_map(map, options, 1, true, *path);
-  if (adjustment == nullptr) return {};
-  AdjustmentSummary summary = adjustment->solve(options.full_iterations, 1e-7, abort);
+  const auto problem = whole_map(map, options, 1, true, *path);
+  if (problem == nullptr) return {};
+  AdjustmentSummary summary = problem->solve(options.full_iterations, 1e-7, abort);
   const double left = summary.final_rms / summary.initial_rms;
   summary.usable = summary.usable && left * left < 1 - kLensShare;
   if (!summary.usable) return summary;
-  adjustment->keep_unit();
-  adjustment->write_back();
-  summary.outliers = adjustment->erase_outliers(kGate);
+  problem->keep_unit();
+  problem->write_back();
+  summary.outliers = problem->erase_outliers(kGate);
   return summary;
 }
 

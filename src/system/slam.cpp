@@ -214,6 +214,7 @@ void Slam::Implementation::initialise(const std::shared_ptr<const Frame>& frame,
     const std::lock_guard lock(mapping_mutex);
     mapping = std::make_unique<MappingSchedule>(std::move(mapper), options);
   }
+  initializer.reset();  // lets the first frame and its picture go
   map_started = frame->timestamp;
   std::vector<PointId> points(frame->size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -347,7 +348,6 @@ void Slam::Implementation::restart() {
     const std::lock_guard lock(mapping_mutex);
     mapping.reset();
   }
-  initializer.reset();
   log = {};
   sighting = {};
   frames_since_keyframe = 0;

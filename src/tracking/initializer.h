@@ -29,7 +29,10 @@ class Initializer {
   std::optional<InitialPair> add(std::shared_ptr<const Frame> frame,
                                  std::shared_ptr<const Picture> picture = {});
   const std::string& refusal() const { return refusal_; }
-  void reset() { reference_.reset(); }
+  void reset() {
+    reference_.reset();
+    picture_.reset();
+  }
 
  private:
   void start(std::shared_ptr<const Frame> frame, std::shared_ptr<const Picture> picture);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cairn/geometry/median.h"
+#include "map/flat_map.h"
 #include "map/links.h"
 #include "map/painted_wall.h"
 #include "mapping/drive.h"
@@ -68,25 +69,16 @@ TEST(MapperStart, SeesItsPointsInBothPicturesWhereTheyLookAlike) {
   const testing::PaintedWall wall;
   testing::Random random(65);
   const SE3 T_12(so3_exp({0.01, 0, 0.01}), Eigen::Vector3d(0.2, 0.03, 0.05));
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(117);
-  for (int column = 0; column < 13; ++column) {
-    for (int row = 0; row < 9; ++row) {
-      points.emplace_back(0.1 * column - 0.6, 0.1 * row - 0.4, testing::PaintedWall::kZ);
-    }
-  }
+  const std::vector<Eigen::Vector3d> points = testing::grid_on(
+      testing::rectangle({-0.6, -0.4, testing::PaintedWall::kZ}, {1.2, 0, 0}, {0, 0.8, 0}), 11);
   const auto see = [&](const SE3& T_wc, double off) {
-    auto frame = std::make_shared<Frame>();
-    frame->timestamp = T_wc.translation().x();
+    std::vector<Eigen::Vector2d> pixels;
+    pixels.reserve(points.size());
     for (const Eigen::Vector3d& point : points) {
-      const Eigen::Vector2d pixel = wall.pixel(T_wc, point);
-      frame->features.keypoints.push_back(
-          {static_cast<float>(pixel.x() + random.uniform(-off, off)),
-           static_cast<float>(pixel.y() + random.uniform(-off, off))});
-      frame->features.descriptors.emplace_back();
+      const double du = random.uniform(-off, off), dv = random.uniform(-off, off);
+      pixels.push_back(wall.pixel(T_wc, point) + Eigen::Vector2d(du, dv));
     }
-    frame->grid.build(frame->features.keypoints);
-    return frame;
+    return testing::frame_at(pixels, T_wc.translation().x());
   };
   InitialPair pair{see(SE3(), 0), see(T_12, 0.5), T_12.inverse(), {}};
   for (std::uint32_t i = 0; i < points.size(); ++i) pair.points.push_back({i, i, points[i]});
