@@ -19,6 +19,7 @@ constexpr double kFarTooLarge = 3;     // σ of the class's size
 constexpr double kFarTooSmall = 5;     // the same: of a chair behind a table only the back is seen
 constexpr double kUprightOdds = 8;     // in the cost: things stand as usual rather than in any way
 constexpr double kShareOfSize = 0.65;  // of a thing's longest semi-axis, that its place may be off
+constexpr double kWithPoints = 2;      // times as much, where the map's points lie there
 constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
 
 // Depths of what the middle of a box shows.
@@ -89,6 +90,28 @@ ObjectFit fit_upright(const Ellipsoid& start, std::span<const BoxView> views,
   return best;
 }
 
+// Most of what the boxes show is as far away as the thing is thought to be. The boxes' own sizes
+// say nothing of that, so it tells whether the fit, unsure of how far, has it right.
+bool points_lie_there(const Map& map, const ObjectLandmark& landmark, const Ellipsoid& ellipsoid) {
+  const Eigen::Vector3d centre = map.keyframes()[landmark.reference].T_wc * ellipsoid.centre();
+  const double reach = ellipsoid.semi_axes.maxCoeff();
+  std::size_t there = 0, seen = 0;
+  for (const ObjectObservation& o : landmark.observations) {
+    if (o.buried) continue;
+    const Keyframe& keyframe = map.keyframes()[o.keyframe];
+    const SE3 T_cw = keyframe.T_wc.inverse();
+    const double depth = (T_cw * centre).z();
+    for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+      if (!keyframe.points[i].valid() || !o.box.contains(keyframe.frame->pixel(i))) continue;
+      const MapPoint& point = map.points()[keyframe.points[i]];
+      if (point.assumed) continue;
+      ++seen;
+      there += std::abs((T_cw * point.position).z() - depth) < reach;
+    }
+  }
+  return seen >= kFewPoints && 2 * there > seen;
+}
+
 }  // namespace
 
 Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenObject& seen) {
@@ -152,7 +175,11 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   }
   const double near = std::max(options.max_sigma_place * distance,
                                kShareOfSize * fit.ellipsoid.semi_axes.maxCoeff());
-  if (!(std::sqrt(place.eigenvalues()[2]) < near)) return "place unsure";
+  const double unsure = std::sqrt(place.eigenvalues()[2]);
+  if (!(unsure < near) &&
+      !(unsure < kWithPoints * near && points_lie_there(map, landmark, fit.ellipsoid))) {
+    return "place unsure";
+  }
   const double sigma_size = std::sqrt(fit.covariance.bottomRightCorner<3, 3>().sum()) / 3;
   if (!(sigma_size < options.max_sigma_size)) return "size unsure";
   const double usual = usual_size(landmark.class_name()) * map.units_a_true_metre();

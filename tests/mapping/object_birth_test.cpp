@@ -74,18 +74,31 @@ TEST(FitToBoxes, TakesWhatIsOfNoKnownClassAsItIs) {
   EXPECT_TRUE(film.fit().fit.usable);
 }
 
+// Why a thing is none whose fit knows its place to `sigma` metres along each axis.
+std::string refusal_of(const Film& film, const Ellipsoid& thing, double sigma) {
+  const ObjectLandmark& landmark = film.map.objects()[testing::objects_of(film.map)[0]];
+  ObjectFit fit = film.fit().fit;
+  fit.ellipsoid.semi_axes = thing.semi_axes;
+  fit.covariance.topLeftCorner<3, 3>() = sigma * sigma * Eigen::Matrix3d::Identity();
+  return refusal(film.map, landmark, fit, {});
+}
+
 // 24 cm are a fifth of the distance: for a cup that is nowhere, for a table it is a place.
 TEST(Refusal, OfAnUnsurePlaceIsASmallThingsOnly) {
   for (const double size : {0.1, 1.0}) {
     const Ellipsoid thing = lying({size, 0.4 * size, 0.5 * size});
     Film film(thing, "anvil", 40);
-    ObjectLandmark& landmark = film.map.objects()[testing::objects_of(film.map)[0]];
-    ObjectFit fit = film.fit().fit;
-    EXPECT_EQ(refusal(film.map, landmark, fit, {}), "") << size;
-    fit.ellipsoid = {fit.ellipsoid.T, thing.semi_axes};
-    fit.covariance.topLeftCorner<3, 3>() = 0.24 * 0.24 * Eigen::Matrix3d::Identity();
-    EXPECT_EQ(refusal(film.map, landmark, fit, {}), size < 0.5 ? "place unsure" : "") << size;
+    EXPECT_EQ(refusal_of(film, thing, 0.05), "") << size;
+    film.map.points().for_each([](PointId, MapPoint& point) { point.position.z() += 1; });
+    EXPECT_EQ(refusal_of(film, thing, 0.24), size < 0.5 ? "place unsure" : "") << size;
   }
+}
+
+TEST(Refusal, BelievesAnUnsurePlaceWhereTheMapsPointsLie) {
+  const Ellipsoid thing = lying({0.1, 0.04, 0.05});
+  const Film film(thing, "anvil", 40);
+  EXPECT_EQ(refusal_of(film, thing, 0.24), "");
+  EXPECT_EQ(refusal_of(film, thing, 0.5), "place unsure");  // that could as well be chance
 }
 
 TEST(FindUp, IsTheDirectionThatNoCameraIsRolledAbout) {
