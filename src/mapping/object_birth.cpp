@@ -7,6 +7,7 @@
 
 #include "cairn/geometry/median.h"
 #include "cairn/map/object_classes.h"
+#include "cairn/mapping/points_in_box.h"
 #include "cairn/optimization/object_blocks.h"
 
 namespace cairn {
@@ -101,13 +102,11 @@ bool points_lie_there(const Map& map, const ObjectLandmark& landmark, const Elli
     const Keyframe& keyframe = map.keyframes()[o.keyframe];
     const SE3 T_cw = keyframe.T_wc.inverse();
     const double depth = (T_cw * centre).z();
-    for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
-      if (!keyframe.points[i].valid() || !o.box.contains(keyframe.frame->pixel(i))) continue;
-      const MapPoint& point = map.points()[keyframe.points[i]];
-      if (point.assumed) continue;
+    for_each_point_in(o.box, map, keyframe, [&](const MapPoint& point) {
+      if (point.assumed) return;
       ++seen;
       there += std::abs((T_cw * point.position).z() - depth) < reach;
-    }
+    });
   }
   return seen >= kFewPoints && 2 * there > seen;
 }

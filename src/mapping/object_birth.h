@@ -11,10 +11,11 @@ namespace cairn {
 
 struct ObjectBirthOptions {
   int min_views = 4;
-  double min_span_deg = 4;        ///< between the directions from which it was seen
-  double min_agreeing = 0.6;      ///< share of the views that the fit explains
-  double max_sigma_place = 0.15;  ///< of the centre, as a share of its distance from the cameras
-  double max_sigma_size = 0.5;    ///< of the logarithm of its size
+  double min_span_deg = 4;    ///< between the directions from which it was seen
+  double min_agreeing = 0.6;  ///< share of the views that the fit explains
+  /// Of the centre, as a share of its distance from the cameras; twice as much where points lie.
+  double max_sigma_place = 0.15;
+  double max_sigma_size = 0.5;  ///< of the logarithm of its size
 };
 
 /// What single pictures say of a thing's place: in the keyframe's frame, as far away as the map's

@@ -11,6 +11,7 @@
 #include "cairn/map/object_classes.h"
 #include "cairn/mapping/foreign_boxes.h"
 #include "cairn/mapping/object_support.h"
+#include "cairn/mapping/points_in_box.h"
 
 namespace cairn {
 namespace {
@@ -136,12 +137,10 @@ bool should_be_seen(const Map& map, const Keyframe& keyframe, ObjectId id) {
   if (distance < kNearer * nearest || distance > kFarther * farthest) return false;
   int seen = 0, before = 0;
   const double front = distance - in_world.semi_axes.maxCoeff();
-  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
-    const MapPoint* point = map.points().find(keyframe.points[i]);
-    if (point == nullptr || !box->contains(keyframe.frame->pixel(i))) continue;
+  for_each_point_in(*box, map, keyframe, [&](const MapPoint& point) {
     ++seen;
-    before += (T_cw * point->position).norm() < front;
-  }
+    before += (T_cw * point.position).norm() < front;
+  });
   return before <= kCovered * seen;
 }
 

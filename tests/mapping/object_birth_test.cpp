@@ -88,7 +88,8 @@ TEST(Refusal, OfAnUnsurePlaceIsASmallThingsOnly) {
   for (const double size : {0.1, 1.0}) {
     const Ellipsoid thing = lying({size, 0.4 * size, 0.5 * size});
     Film film(thing, "anvil", 40);
-    EXPECT_EQ(refusal_of(film, thing, 0.05), "") << size;
+    const ObjectLandmark& landmark = film.map.objects()[testing::objects_of(film.map)[0]];
+    EXPECT_EQ(refusal(film.map, landmark, film.fit().fit, {}), "") << size;
     film.map.points().for_each([](PointId, MapPoint& point) { point.position.z() += 1; });
     EXPECT_EQ(refusal_of(film, thing, 0.24), size < 0.5 ? "place unsure" : "") << size;
   }
