@@ -23,10 +23,6 @@ struct Candidate {
   std::vector<Eigen::Vector2d> points;  // projected
 };
 
-Box2 borders(const View& view) {
-  return {view.min_x(), view.min_y(), view.max_x() - 1, view.max_y() - 1};
-}
-
 std::vector<Candidate> candidates_of(const Map& map, const Keyframe& keyframe) {
   std::vector<Candidate> candidates;
   const SE3 T_cw = keyframe.T_wc.inverse();
@@ -38,7 +34,7 @@ std::vector<Candidate> candidates_of(const Map& map, const Keyframe& keyframe) {
     if (!box) return;
     Candidate c{id,
                 landmark.class_name(),
-                box->clipped(borders(map.view())),
+                box->clipped(map.view().borders()),
                 pinhole.project(in_camera.centre()),
                 {}};
     if (!c.box.valid()) return;

@@ -7,6 +7,7 @@
 
 #include "cairn/features/features.h"
 #include "cairn/features/matching.h"
+#include "cairn/geometry/box.h"
 #include "cairn/geometry/camera.h"
 #include "cairn/geometry/rolling_shutter.h"
 
@@ -28,6 +29,8 @@ class View {
   double min_y() const { return min_y_; }
   double max_x() const { return max_x_; }
   double max_y() const { return max_y_; }
+  /// Pixel centres within.
+  Box2 borders() const { return {min_x_, min_y_, max_x_ - 1, max_y_ - 1}; }
 
   int levels() const { return static_cast<int>(scale_.size()); }
   double log_scale_factor() const { return log_scale_factor_; }

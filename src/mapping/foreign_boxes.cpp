@@ -17,13 +17,13 @@ struct Known {
   std::string class_name;
 };
 
-double overlap(const Map& map, const Ellipsoid& in_world, const ObjectObservation& o) {
+}  // namespace
+
+double box_overlap(const Map& map, const Ellipsoid& in_world, const ObjectObservation& o) {
   const SE3 T_cw = map.camera_of(o).inverse();
   const auto box = projected_box(map.view().pinhole(), {T_cw * in_world.T, in_world.semi_axes});
-  return box ? intersection_over_union(*box, o.box) : 0;
+  return box ? intersection_over_union(box->clipped(map.view().borders()), o.box) : 0;
 }
-
-}  // namespace
 
 void drop_foreign_boxes(Map& map) {
   std::vector<Known> all;
@@ -32,10 +32,10 @@ void drop_foreign_boxes(Map& map) {
   });
   for (const Known& known : all) {
     std::erase_if(map.objects()[known.id].observations, [&](const ObjectObservation& o) {
-      const double enough = std::max(kExplained, overlap(map, known.in_world, o) + kFarBetter);
+      const double enough = std::max(kExplained, box_overlap(map, known.in_world, o) + kFarBetter);
       return std::any_of(all.begin(), all.end(), [&](const Known& other) {
         return other.id != known.id && may_be_one_class(other.class_name, known.class_name) &&
-               overlap(map, other.in_world, o) > enough;
+               box_overlap(map, other.in_world, o) > enough;
       });
     });
   }

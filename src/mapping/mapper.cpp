@@ -170,8 +170,10 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
   publish(current_);
 }
 
-AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort) {
+AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort,
+                                 std::span<const KeyframeMotion> motions) {
   if (map_.keyframes().size() < 2) return {};
+  set_motions(map_, motions);
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   OdometryBlocks path(map_);  // one adjustment after the other must not lead away from it

@@ -15,6 +15,7 @@
 #include "cairn/map/map.h"
 #include "cairn/map/map_view.h"
 #include "cairn/mapping/buried_keyframe.h"
+#include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/metric_scale.h"
 #include "cairn/mapping/object_mapping.h"
 #include "cairn/mapping/plane_mapping.h"
@@ -58,8 +59,10 @@ class Mapper {
   void join(const KeyframePerception& seen);
   /// Local adjustment and culling after an insertion; publishes. Returns early when `abort` is set.
   void adjust(const std::atomic<bool>* abort);
-  /// The end: fusion over the whole map, then full adjustment.
-  AdjustmentSummary finish(const std::atomic<bool>* abort);
+  /// The end: fusion over the whole map, then full adjustment. `motions`: of keyframes, as all
+  /// frames show them.
+  AdjustmentSummary finish(const std::atomic<bool>* abort,
+                           std::span<const KeyframeMotion> motions = {});
 
   /// What the tracker saw and should have seen, for culling.
   void count_visible(std::span<const PointId> visible, std::span<const PointId> found);

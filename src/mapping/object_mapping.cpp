@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kOneThing = 0.25;  // IoU of two ellipsoids of one family that are one thing
 constexpr double kOnePlace = 0.4;   // the same, of any two: things do not share their place
+constexpr double kOneSight = 0.7;   // IoU of a box with what another thing looks like there
 constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
 constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
 constexpr double kCovered = 0.3;      // of what is seen where a thing should be, before it
@@ -83,7 +84,19 @@ void bear(Map& map, ObjectLandmark& landmark, const ObjectBirthOptions& options,
   }
 }
 
-bool are_one(const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark& b,
+// Most boxes of a thing show another one: a detector gives one thing two names in one picture.
+bool is_shown_as(const Map& map, const Ellipsoid& other, const ObjectLandmark& thing) {
+  const auto shown = std::count_if(
+      thing.observations.begin(), thing.observations.end(),
+      [&](const ObjectObservation& o) { return box_overlap(map, other, o) > kOneSight; });
+  return 2 * shown > std::ssize(thing.observations);
+}
+
+bool is_surer(const ObjectLandmark& a, const ObjectLandmark& b) {
+  return a.born != b.born ? a.born : a.sightings >= b.sightings;
+}
+
+bool are_one(const Map& map, const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark& b,
              const Ellipsoid& eb) {
   if (!a.born && !b.born) return false;  // two guesses: too little is known of either
   const double reach = ea.semi_axes.maxCoeff() + eb.semi_axes.maxCoeff();
@@ -92,7 +105,8 @@ bool are_one(const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark&
   if (may_be_one_class(a.class_name(), b.class_name())) {
     return within || intersection_over_union(ea, eb) > kOneThing;
   }
-  return within && intersection_over_union(ea, eb) > kOnePlace;
+  return (within && intersection_over_union(ea, eb) > kOnePlace) ||
+         (is_surer(a, b) ? is_shown_as(map, ea, b) : is_shown_as(map, eb, a));
 }
 
 void fuse_objects(Map& map) {
@@ -104,9 +118,9 @@ void fuse_objects(Map& map) {
       const ObjectLandmark *a = map.objects().find(all[i].first),
                            *b = map.objects().find(all[k].first);
       if (a == nullptr || b == nullptr) continue;
-      if (!are_one(*a, all[i].second, *b, all[k].second)) continue;
-      const bool first = a->born != b->born ? a->born : a->sightings >= b->sightings;
-      spdlog::debug("objects: two {} are one thing", a->class_name());
+      if (!are_one(map, *a, all[i].second, *b, all[k].second)) continue;
+      const bool first = is_surer(*a, *b);
+      spdlog::debug("objects: {} and {} are one thing", a->class_name(), b->class_name());
       auto& [kept, in_world] = all[first ? i : k];
       map.merge_objects(all[first ? k : i].first, kept);
       ObjectLandmark& whole = map.objects()[kept];

@@ -4,27 +4,26 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 namespace cairn {
-namespace {
-
-struct Carried {
+// A frame where its keyframe carries it.
+struct CarriedFrame {
+  std::size_t entry;  // of the log
   double timestamp;
   KeyframeId reference;
   SE3 T_wc;
+  KeyframeId keyframe = {};        // that it is, if it is one
+  std::optional<SE3> anchor = {};  // where it is, if that is known
 };
 
-// A frame whose place is known, and the keyframe that it is, if it is one.
-struct Anchor {
-  SE3 T_wc;
-  KeyframeId keyframe;
-};
+namespace {
 
 // At an anchor it shows by how much frames drifted from their reference keyframe; those in between
 // take their share of it, in proportion to time. One entry a frame.
-Trajectory share_drift(const std::vector<Carried>& frames,
-                       const std::vector<std::optional<Anchor>>& anchors) {
+Trajectory share_drift(std::span<const CarriedFrame> frames) {
   struct Drift {
     double timestamp;
     KeyframeId anchor;
@@ -36,9 +35,10 @@ Trajectory share_drift(const std::vector<Carried>& frames,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     std::optional<Drift> after;
     for (next = std::max(next, i); next < frames.size(); ++next) {
-      if (!anchors[next]) continue;
-      after = {frames[next].timestamp, anchors[next]->keyframe,
-               (frames[next].T_wc.inverse() * anchors[next]->T_wc).log()};
+      const CarriedFrame& anchored = frames[next];
+      if (!anchored.anchor) continue;
+      after = {anchored.timestamp, anchored.keyframe,
+               (anchored.T_wc.inverse() * *anchored.anchor).log()};
       break;
     }
     Vector6d xi = Vector6d::Zero();
@@ -63,16 +63,25 @@ Trajectory share_drift(const std::vector<Carried>& frames,
   return result;
 }
 
-// From the frame before to the frame after, as far as they are near in time; none where neither is.
+// Of the polynomial through a frame, two before it and two after it, as far as they are near in
+// time. Hands tremble at some five hertz: the mean from the frame before to the frame after would
+// miss a sixth of that, and make a readout look longer by as much.
 Vector6d velocity_at(const Trajectory& trajectory, std::size_t i) {
-  const double now = trajectory[i].timestamp;
-  const bool first = i == 0 || now - trajectory[i - 1].timestamp > kEvenMotion;
-  const bool last = i + 1 == trajectory.size() || trajectory[i + 1].timestamp - now > kEvenMotion;
-  const auto& before = trajectory[first ? i : i - 1];
-  const auto& after = trajectory[last ? i : i + 1];
-  const double dt = after.timestamp - before.timestamp;
-  if (!(dt > 0)) return Vector6d::Zero();
-  return (before.T_wc.inverse() * after.T_wc).log() / dt;
+  constexpr std::size_t kReach = 2;
+  std::vector<std::pair<double, Vector6d>> around;  // when, and where from the frame
+  const std::size_t end = std::min(i + kReach + 1, trajectory.size());
+  for (std::size_t k = i - std::min(i, kReach); k < end; ++k) {
+    const double t = trajectory[k].timestamp - trajectory[i].timestamp;
+    if (t == 0 || std::abs(t) > kEvenMotion) continue;
+    around.emplace_back(t, (trajectory[i].T_wc.inverse() * trajectory[k].T_wc).log());
+  }
+  Vector6d velocity = Vector6d::Zero();
+  for (const auto& [t, way] : around) {
+    double weight = 1 / t;  // Lagrange's, derived where the frame is
+    for (const auto& [other, _] : around) weight *= other == t ? 1 : other / (other - t);
+    velocity += weight * way;
+  }
+  return velocity;
 }
 
 }  // namespace
@@ -91,44 +100,60 @@ std::vector<Sighting> FrameLog::sightings_at(const Entry& entry) const {
   return sightings;
 }
 
-Trajectory FrameLog::final_trajectory(const Map& map,
-                                      std::span<const BuriedKeyframe> buried) const {
+std::vector<CarriedFrame> FrameLog::carried(const Map& map,
+                                            std::span<const BuriedKeyframe> buried) const {
   const KeyframeGenealogy genealogy(map, buried);
   std::map<double, KeyframeId> keyframes;
   map.keyframes().for_each(
       [&](KeyframeId id, const Keyframe& k) { keyframes[k.timestamp()] = id; });
-  std::map<double, const BuriedKeyframe*> graves;
-  for (const BuriedKeyframe& b : buried) graves[b.timestamp] = &b;
-  std::vector<const Entry*> entries;
-  std::vector<Carried> frames;
-  std::vector<std::optional<Anchor>> anchors;
-  for (const Entry& entry : entries_) {
+  std::vector<CarriedFrame> frames;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
     const std::optional<SE3> T_wr = genealogy.T_wc(entry.reference);
     if (!T_wr) continue;
-    entries.push_back(&entry);
-    frames.push_back({entry.timestamp, entry.reference, *T_wr * entry.T_rc});
-    anchors.emplace_back();
+    frames.push_back({i, entry.timestamp, entry.reference, *T_wr * entry.T_rc});
     const auto keyframe = keyframes.find(entry.timestamp);
     if (keyframe == keyframes.end()) continue;
-    anchors.back() = {map.keyframes()[keyframe->second].T_wc, keyframe->second};
+    frames.back().keyframe = keyframe->second;
+    frames.back().anchor = map.keyframes()[keyframe->second].T_wc;
   }
-  const Trajectory carried = share_drift(frames, anchors);
+  return frames;
+}
+
+std::vector<KeyframeMotion> FrameLog::keyframe_motions(
+    const Map& map, std::span<const BuriedKeyframe> buried) const {
+  const std::vector<CarriedFrame> frames = carried(map, buried);
+  const Trajectory trajectory = share_drift(frames);
+  std::vector<KeyframeMotion> motions;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].anchor) motions.push_back({frames[i].keyframe, velocity_at(trajectory, i)});
+  }
+  return motions;
+}
+
+Trajectory FrameLog::final_trajectory(const Map& map,
+                                      std::span<const BuriedKeyframe> buried) const {
+  std::map<double, const BuriedKeyframe*> graves;
+  for (const BuriedKeyframe& b : buried) graves[b.timestamp] = &b;
+  std::vector<CarriedFrame> frames = carried(map, buried);
+  const Trajectory trajectory = share_drift(frames);
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-    if (anchors[i]) return;
-    const Entry& entry = *entries[i];
-    const auto grave = graves.find(entry.timestamp);
-    const SE3& T_wc = carried[i].T_wc;
-    const Vector6d velocity = velocity_at(carried, i);
-    const auto placed =
+    CarriedFrame& frame = frames[i];
+    if (frame.anchor) return;
+    const auto grave = graves.find(frame.timestamp);
+    const SE3& T_wc = trajectory[i].T_wc;
+    const Vector6d velocity = velocity_at(trajectory, i);
+    const Entry& entry = entries_[frame.entry];
+    frame.anchor =
         grave == graves.end()
             ? place(map, sightings_at(entry), entry.last_birth, T_wc, velocity)
             : place(map, grave->second->sightings, grave->second->last_birth, T_wc, velocity);
-    if (placed) anchors[i] = {*placed, {}};
   });
-  spdlog::debug("{} of {} frames found their place in the final map",
-                std::count_if(anchors.begin(), anchors.end(), [](const auto& a) { return !!a; }),
-                frames.size());
-  return share_drift(frames, anchors);
+  spdlog::debug(
+      "{} of {} frames found their place in the final map",
+      std::count_if(frames.begin(), frames.end(), [](const auto& f) { return !!f.anchor; }),
+      frames.size());
+  return share_drift(frames);
 }
 
 Trajectory keyframe_trajectory(const Map& map) {

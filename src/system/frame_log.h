@@ -11,6 +11,8 @@
 
 namespace cairn {
 
+struct CarriedFrame;
+
 /// Every tracked frame: where it is from the keyframe that carries it, and what it saw.
 class FrameLog {
  public:
@@ -22,6 +24,9 @@ class FrameLog {
   /// see what they saw (`buried` ones when they were buried); those that saw too little keep their
   /// place between frames that did not.
   Trajectory final_trajectory(const Map& map, std::span<const BuriedKeyframe> buried) const;
+  /// How the keyframes of the map moved, as the frames just before and after them show it.
+  std::vector<KeyframeMotion> keyframe_motions(const Map& map,
+                                               std::span<const BuriedKeyframe> buried) const;
   const Trajectory& live_trajectory() const { return live_; }
 
  private:
@@ -33,6 +38,7 @@ class FrameLog {
     std::uint32_t last_birth;
   };
 
+  std::vector<CarriedFrame> carried(const Map& map, std::span<const BuriedKeyframe> buried) const;
   std::vector<Sighting> sightings_at(const Entry& entry) const;
 
   std::vector<Entry> entries_;

@@ -366,7 +366,8 @@ SlamResult Slam::finish() {
   }
   if (s.perception) s.perception->stop();
   Mapper& mapper = s.mapping->stop();
-  const AdjustmentSummary summary = mapper.finish(nullptr);
+  const AdjustmentSummary summary =
+      mapper.finish(nullptr, s.log.keyframe_motions(mapper.map(), mapper.buried()));
   spdlog::info("full adjustment: {}", summary.to_string());
   const Map& map = mapper.map();
   result.trajectory = s.log.final_trajectory(map, mapper.buried());

@@ -67,11 +67,26 @@ TEST(KeyframeMotion, IsFoundWhereNothingIsKnownOfIt) {
   EXPECT_LT(off(map), 0.1 * before);
 }
 
+TEST(KeyframeMotion, OnceKnownSaysWhereAnInstantShutterWouldHaveSeenKeypoints) {
+  const std::vector<Vector6d> moving(3, (Vector6d() << 0.2, 0.1, 0.1, 0.3, -0.4, 0.3).finished());
+  PointWorld world(604, {.noise = 0.05, .clutter = 0, .readout = 0.025});
+  Map map = true_map(world, kWalk, moving);
+  const KeyframeId one = keyframes_of(map)[1];
+  const double right = off(map);
+  map.set_readout(0.025);
+  set_motions(map, std::vector<KeyframeMotion>{{one, -moving[1]}});
+  const double wrong = off(map);
+  EXPECT_EQ(map.keyframes()[one].frame->velocity, -moving[1]);
+  set_motions(map, std::vector<KeyframeMotion>{{one, moving[1]}});
+  EXPECT_LT(off(map), std::min(0.5 * wrong, right));
+}
+
 TEST(KeyframeMotion, OfAnInstantShutterNothingIsLookedFor) {
   PointWorld world(602, {.clutter = 0});
   Map map = true_map(world, kWalk);
   const auto frame = map.keyframes()[keyframes_of(map).front()].frame;
   find_motions(map);
+  set_motions(map, std::vector<KeyframeMotion>{{keyframes_of(map).front(), Vector6d::Ones()}});
   EXPECT_EQ(map.keyframes()[keyframes_of(map).front()].frame, frame);
 }
 

@@ -153,6 +153,29 @@ TEST_F(MapObjectsOfPictures, OfTwoNamesOneThingKeepsTheOneThatMorePicturesGive) 
   EXPECT_EQ(map.objects()[mouse].class_name(), "mouse");
 }
 
+TEST_F(MapObjectsOfPictures, AGuessOfAnotherNameWhoseBoxesShowAThingIsThatThing) {
+  film(12, 50);
+  show_cup_everywhere("tv");
+  const ObjectId tv = objects_of(map)[0];
+  ObjectLandmark vague = map.objects()[tv];  // too thick, and too far away
+  vague.votes = {{"microwave", 0.5}};
+  vague.sightings -= 3;
+  vague.ellipsoid.semi_axes *= 2;
+  vague.ellipsoid.T = SE3(vague.ellipsoid.T.rotation(), 1.1 * vague.ellipsoid.centre());
+  ObjectLandmark beside = vague;
+  for (ObjectObservation& o : beside.observations) {
+    o.box.x1 = o.box.x0;
+    o.box.x0 -= 20;
+  }
+  const ObjectId other = map.objects().insert(beside);
+  show(keyframes.back(), {});
+  EXPECT_THAT(objects_of(map), ::testing::ElementsAre(tv, other)) << "its boxes show another place";
+  map.erase_object(other);
+  map.objects().insert(vague);
+  show(keyframes.back(), {});
+  EXPECT_THAT(objects_of(map), ::testing::ElementsAre(tv));
+}
+
 TEST_F(MapObjectsOfPictures, BoxesOfItsNeighbourDoNotCostAnObjectItsPlace) {
   film(24, 50);
   const Ellipsoid left = a_cup(), right = a_cup({0.15, 0, 1.2});

@@ -90,6 +90,37 @@ TEST_F(FrameLogTest, AFrameThatWasAKeyframeIsWhereItSawWhatItSawAtLast) {
   EXPECT_LT((trajectory[0].T_wc.translation() - along(0.6).translation()).norm(), 0.004);
 }
 
+TEST_F(FrameLogTest, AKeyframeMovesAsTheFramesAroundItSay) {
+  const auto trembling = [](double t) {
+    const double sway = std::sin(2 * M_PI * 4.5 * (t - 0.98));
+    return SE3(so3_exp(Eigen::Vector3d(0, 0.02 * sway, 0.3 * (t - 1))),
+               Eigen::Vector3d(0.2 * t, 0.01 * sway, 0));
+  };
+  map.keyframes()[second].T_wc = trembling(1);
+  for (const double frame : {-9, -2, -1, 0, 1, 2}) {
+    const double t = 1 + frame / 30;
+    const KeyframeId carrier = frame < 0 ? first : second;
+    log.add(t, carrier, map.keyframes()[carrier].T_wc.inverse() * trembling(t), trembling(t));
+  }
+  const std::vector<KeyframeMotion> motions = log.keyframe_motions(map, {});
+  ASSERT_EQ(motions.size(), 1u) << "of the first keyframe there is no frame";
+  EXPECT_EQ(motions[0].keyframe, second);
+  const auto mean = [&](double dt) -> Vector6d {
+    return (trembling(1 - dt).inverse() * trembling(1 + dt)).log() / (2 * dt);
+  };
+  const Vector6d truth = mean(1e-5);
+  EXPECT_LT((motions[0].velocity - truth).norm(), 0.04 * truth.norm());
+  EXPECT_LT((motions[0].velocity - truth).norm(), 0.3 * (mean(1 / 30.0) - truth).norm());
+}
+
+TEST_F(FrameLogTest, AKeyframeWithoutFramesNearItSaysNothingOfItsMotion) {
+  log.add(1, first, along(0).inverse() * along(0.5), along(0.5));
+  log.add(2, second, along(0.5).inverse() * along(0.7), along(0.7));
+  const std::vector<KeyframeMotion> motions = log.keyframe_motions(map, {});
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_TRUE(motions[0].velocity.isZero(0));
+}
+
 TEST_F(FrameLogTest, KeyframesComeInOrderOfTime) {
   map.erase_keyframe(first);
   add_keyframe(along(1), 2);
