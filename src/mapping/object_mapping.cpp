@@ -19,6 +19,7 @@ namespace {
 constexpr double kOneThing = 0.25;  // IoU of two ellipsoids of one family that are one thing
 constexpr double kOnePlace = 0.4;   // the same, of any two: things do not share their place
 constexpr double kOneSight = 0.7;   // IoU of a box with what another thing looks like there
+constexpr double kUnsure = 3;       // σ of a thing's place, that it may be off
 constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
 constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
 constexpr double kCovered = 0.3;      // of what is seen where a thing should be, before it
@@ -96,17 +97,25 @@ bool is_surer(const ObjectLandmark& a, const ObjectLandmark& b) {
   return a.born != b.born ? a.born : a.sightings >= b.sightings;
 }
 
+double place_sigma(const ObjectLandmark& landmark) {
+  return std::sqrt(landmark.covariance.trace());
+}
+
 bool are_one(const Map& map, const ObjectLandmark& a, const Ellipsoid& ea, const ObjectLandmark& b,
              const Ellipsoid& eb) {
   if (!a.born && !b.born) return false;  // two guesses: too little is known of either
+  const double apart = (ea.centre() - eb.centre()).norm();
   const double reach = ea.semi_axes.maxCoeff() + eb.semi_axes.maxCoeff();
-  if ((ea.centre() - eb.centre()).squaredNorm() > reach * reach) return false;  // most are apart
-  const bool within = ea.contains(eb.centre()) && eb.contains(ea.centre());
-  if (may_be_one_class(a.class_name(), b.class_name())) {
-    return within || intersection_over_union(ea, eb) > kOneThing;
+  const double unsure = std::max(place_sigma(a), place_sigma(b));
+  if (apart > reach + kUnsure * unsure) return false;  // most are
+  if (apart <= reach) {
+    const bool within = ea.contains(eb.centre()) && eb.contains(ea.centre());
+    const bool kin = may_be_one_class(a.class_name(), b.class_name());
+    if (within && kin) return true;
+    const double least = kin ? kOneThing : kOnePlace;
+    if ((within || kin) && intersection_over_union(ea, eb) > least) return true;
   }
-  return (within && intersection_over_union(ea, eb) > kOnePlace) ||
-         (is_surer(a, b) ? is_shown_as(map, ea, b) : is_shown_as(map, eb, a));
+  return is_surer(a, b) ? is_shown_as(map, ea, b) : is_shown_as(map, eb, a);
 }
 
 void fuse_objects(Map& map) {

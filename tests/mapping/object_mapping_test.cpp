@@ -176,6 +176,21 @@ TEST_F(MapObjectsOfPictures, AGuessOfAnotherNameWhoseBoxesShowAThingIsThatThing)
   EXPECT_THAT(objects_of(map), ::testing::ElementsAre(tv));
 }
 
+TEST_F(MapObjectsOfPictures, AThingThatMayBeFarOffIsTheOneThatItsBoxesShow) {
+  film(12, 50);
+  show_cup_everywhere();
+  const ObjectId cup = objects_of(map)[0];
+  ObjectLandmark behind = map.objects()[cup];
+  behind.sightings -= 3;
+  behind.ellipsoid.T = SE3(behind.ellipsoid.T.rotation(), 1.5 * behind.ellipsoid.centre());
+  const ObjectId other = map.objects().insert(behind);
+  show(keyframes.back(), {});
+  EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup, other)) << "its place is sure";
+  map.objects()[other].covariance = Eigen::Vector3d(0.01, 0.01, 0.09).asDiagonal();
+  show(keyframes.back(), {});
+  EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup));
+}
+
 TEST_F(MapObjectsOfPictures, BoxesOfItsNeighbourDoNotCostAnObjectItsPlace) {
   film(24, 50);
   const Ellipsoid left = a_cup(), right = a_cup({0.15, 0, 1.2});
