@@ -50,14 +50,19 @@ Observation* MapPoint::seen_from(KeyframeId keyframe) {
 void Map::set_readout(double estimate) {
   readout_estimate_ = estimate;
   readout_ = std::abs(estimate) < kInstant ? 0 : estimate;
-  keyframes_.for_each([&](KeyframeId id, Keyframe& keyframe) {
-    if (!keyframe.frame->rolls() || std::abs(readout_ - keyframe.frame->readout) < kReadoutStep) {
-      return;
+  keyframes_.for_each([&](KeyframeId id, const Keyframe& keyframe) {
+    const Frame& frame = *keyframe.frame;
+    if (frame.rolls() && std::abs(readout_ - frame.readout) >= kReadoutStep) {
+      set_velocity(id, frame.velocity);
     }
-    auto frame = std::make_shared<Frame>(*keyframe.frame);
-    unroll(*frame, view_.pinhole(), depths(id), readout_, frame->velocity);
-    keyframe.frame = std::move(frame);
   });
+}
+
+void Map::set_velocity(KeyframeId id, const Vector6d& velocity) {
+  Keyframe& keyframe = keyframes_[id];
+  auto moved = std::make_shared<Frame>(*keyframe.frame);  // a tracker may look at it
+  unroll(*moved, view_.pinhole(), depths(id), readout_, velocity);
+  keyframe.frame = std::move(moved);
 }
 
 // Stretched from m, the logarithms' mean becomes μ' = m + c (μ − m) and their variance c² v. The

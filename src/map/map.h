@@ -114,6 +114,9 @@ class Map {
   double readout_estimate() const { return readout_estimate_; }
   /// Keyframes are made anew for which that makes a difference.
   void set_readout(double estimate);
+  /// How a keyframe's camera moved, tangent vector in its own frame, a second: moves its keypoints
+  /// to where an instant shutter would have seen them.
+  void set_velocity(KeyframeId id, const Vector6d& velocity);
   SlotMap<Keyframe, KeyframeId>& keyframes() { return keyframes_; }
   const SlotMap<Keyframe, KeyframeId>& keyframes() const { return keyframes_; }
   SlotMap<MapPoint, PointId>& points() { return points_; }

@@ -9,13 +9,6 @@ namespace {
 constexpr int kLeastPoints = 50;
 constexpr double kUnknown = 10;  // times as unsure of a velocity that nobody knows
 
-void unroll_keyframe(Map& map, KeyframeId id, const Vector6d& velocity) {
-  Keyframe& keyframe = map.keyframes()[id];
-  auto moved = std::make_shared<Frame>(*keyframe.frame);
-  unroll(*moved, map.view().pinhole(), map.depths(id), map.readout(), velocity);
-  keyframe.frame = std::move(moved);
-}
-
 void find_motion(Map& map, KeyframeId id) {
   Keyframe& keyframe = map.keyframes()[id];
   const Frame& frame = *keyframe.frame;
@@ -39,7 +32,7 @@ void find_motion(Map& map, KeyframeId id) {
   const PoseAdjustmentSummary summary =
       adjust_pose(observations, map.view().pinhole(), T_wc, inlier, nullptr, &shutter);
   if (!summary.usable || summary.inliers < kLeastPoints) return;
-  unroll_keyframe(map, id, shutter.motion / readout);
+  map.set_velocity(id, shutter.motion / readout);
   keyframe.T_wc = T_wc;
 }
 
@@ -47,9 +40,7 @@ void find_motion(Map& map, KeyframeId id) {
 
 void set_motions(Map& map, std::span<const KeyframeMotion> motions) {
   for (const KeyframeMotion& m : motions) {
-    if (!map.keyframes()[m.keyframe].frame->rows.empty()) {
-      unroll_keyframe(map, m.keyframe, m.velocity);
-    }
+    if (!map.keyframes()[m.keyframe].frame->rows.empty()) map.set_velocity(m.keyframe, m.velocity);
   }
 }
 

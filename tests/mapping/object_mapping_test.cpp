@@ -43,6 +43,13 @@ class MapObjectsOfPictures : public ::testing::Test {
     }
   }
 
+  /// What fusion gives to the other, should both be one.
+  ObjectLandmark lesser_copy_of(ObjectId id) {
+    ObjectLandmark copy = map.objects()[id];
+    copy.sightings -= 3;
+    return copy;
+  }
+
   Random random{5};
   Map map{testing::point_view()};
   std::vector<KeyframeId> keyframes;
@@ -133,9 +140,7 @@ TEST_F(MapObjectsOfPictures, TwoObjectsThatBecomeOneAreFused) {
   film(12, 50);
   show_cup_everywhere();
   const ObjectId cup = objects_of(map)[0];
-  ObjectLandmark copy = map.objects()[cup];
-  copy.sightings -= 3;
-  map.objects().insert(copy);
+  map.objects().insert(lesser_copy_of(cup));
   show(keyframes.back(), {});
   EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup));
 }
@@ -144,9 +149,8 @@ TEST_F(MapObjectsOfPictures, OfTwoNamesOneThingKeepsTheOneThatMorePicturesGive) 
   film(12, 50);
   show_cup_everywhere("mouse");
   const ObjectId mouse = objects_of(map)[0];
-  ObjectLandmark copy = map.objects()[mouse];
+  ObjectLandmark copy = lesser_copy_of(mouse);
   copy.votes = {{"donut", 0.5}};
-  copy.sightings -= 3;
   map.objects().insert(copy);
   show(keyframes.back(), {});
   ASSERT_THAT(objects_of(map), ::testing::ElementsAre(mouse));
@@ -157,9 +161,8 @@ TEST_F(MapObjectsOfPictures, AGuessOfAnotherNameWhoseBoxesShowAThingIsThatThing)
   film(12, 50);
   show_cup_everywhere("tv");
   const ObjectId tv = objects_of(map)[0];
-  ObjectLandmark vague = map.objects()[tv];  // too thick, and too far away
+  ObjectLandmark vague = lesser_copy_of(tv);  // too thick, and too far away
   vague.votes = {{"microwave", 0.5}};
-  vague.sightings -= 3;
   vague.ellipsoid.semi_axes *= 2;
   vague.ellipsoid.T = SE3(vague.ellipsoid.T.rotation(), 1.1 * vague.ellipsoid.centre());
   ObjectLandmark beside = vague;
@@ -180,8 +183,7 @@ TEST_F(MapObjectsOfPictures, AThingThatMayBeFarOffIsTheOneThatItsBoxesShow) {
   film(12, 50);
   show_cup_everywhere();
   const ObjectId cup = objects_of(map)[0];
-  ObjectLandmark behind = map.objects()[cup];
-  behind.sightings -= 3;
+  ObjectLandmark behind = lesser_copy_of(cup);
   behind.ellipsoid.T = SE3(behind.ellipsoid.T.rotation(), 1.5 * behind.ellipsoid.centre());
   const ObjectId other = map.objects().insert(behind);
   show(keyframes.back(), {});
