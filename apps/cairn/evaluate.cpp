@@ -132,6 +132,8 @@ void add_world_options(CLI::App& command, Arguments& arguments) {
   };
   add("--min-visible-frames", objects.min_visible_frames,
       "what is well seen in fewer frames cannot be missed");
+  add("--min-visible-span", objects.min_visible_span_deg,
+      "degrees; an object that is well seen over fewer cannot be missed");
   add("--object-distance", objects.max_centre_distance,
       "metres between the centres of a found and a true object, or its longest semi-axis");
   add("--plane-angle", planes.max_angle_deg, "degrees between a found plane and a true one");

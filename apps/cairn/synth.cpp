@@ -77,7 +77,7 @@ int render_frames(const Arguments& arguments, const World& world, const Camera& 
     const SE3 T_wc = world.scene().path(t);
     const bool whole = all || deep || perception;
     const FrameTruth truth = world.truth(whole ? camera : coarse, T_wc);
-    visible.add(truth, whole ? 1 : kCoarse * kCoarse);
+    visible.add(truth, T_wc.translation(), whole ? 1 : kCoarse * kCoarse);
     folder.add(T_wc, world.render(camera, t, options),
                sensor == SynthSensor::kStereo ? world.render(camera, t, right) : cv::Mat(),
                truth.depth);

@@ -137,7 +137,8 @@ ObjectMetrics object_metrics(std::span<const TrueObject> truth, std::span<const 
   metrics.false_objects = pairing.strangers.size();
   std::vector<ObjectMatch> scored;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const bool counts = truth[i].visible_frames >= options.min_visible_frames;
+    const bool counts = truth[i].visible_frames >= options.min_visible_frames &&
+                        truth[i].visible_span_deg >= options.min_visible_span_deg;
     const int j = pairing.found_of[i];
     if (j < 0) {
       metrics.missed += counts;

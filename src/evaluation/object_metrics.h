@@ -14,6 +14,8 @@ struct ObjectMetricsOptions {
   /// A true object that is well seen in fewer frames can not be missed. (world.json counts frames
   /// in which at least 200 pixels and a quarter of the object are seen.)
   int min_visible_frames = 10;
+  /// Nor one that is well seen from directions which differ by less than this.
+  double min_visible_span_deg = 15;
   /// Metres. A found and a true object of one class can be the same if their centres are not
   /// farther apart than this or the true one's longest semi-axis, whichever is more ...
   double max_centre_distance = 0.1;

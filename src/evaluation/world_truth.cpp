@@ -35,6 +35,8 @@ TrueObject read_object(const CheckedJson& value) {
   object.symmetry = read_symmetry(value.at("symmetry"));
   object.axis = value.at("axis").unit_vector();
   object.visible_frames = value.at("visible_frames").integer();
+  if (value.has("visible_span_deg"))
+    object.visible_span_deg = value.at("visible_span_deg").number();
   return object;
 }
 

@@ -23,6 +23,8 @@ struct TrueObject {
   TurnSymmetry symmetry = TurnSymmetry::kNone;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, of the symmetry
   int visible_frames = 0;                           ///< in which it is well seen
+  /// Largest angle between directions from which it is; without, it counts as seen from all sides.
+  double visible_span_deg = 180;
 };
 
 /// A true plane, `normal · x + d = 0`.

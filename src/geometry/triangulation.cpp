@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/geometry/parallax.h"
+
 namespace cairn {
 namespace {
 
@@ -59,18 +61,6 @@ bool improve(std::span<const TriangulationView> views, const Pinhole& camera, Ve
   // A far point's depth can shoot off; half its distance is as far as the linearisation reaches.
   point += step * std::min(1.0, 0.5 * distance / std::max(step.norm(), 1e-300));
   return step.norm() > 1e-9 * distance;
-}
-
-double largest_parallax_deg(std::span<const TriangulationView> views, const Vector3d& point) {
-  double smallest_cosine = 1;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const Vector3d ray = (point - centre(views[i].T_cw)).normalized();
-    for (std::size_t j = 0; j < i; ++j) {
-      smallest_cosine =
-          std::min(smallest_cosine, ray.dot((point - centre(views[j].T_cw)).normalized()));
-    }
-  }
-  return std::acos(std::max(smallest_cosine, -1.0)) * 180 / M_PI;
 }
 
 }  // namespace
@@ -146,7 +136,9 @@ Triangulation triangulate(std::span<const TriangulationView> views, const Pinhol
     result.max_error_sigmas =
         std::max(result.max_error_sigmas, (camera.project(X) - view.pixel).norm() / view.sigma_px);
   }
-  result.parallax_deg = largest_parallax_deg(views, result.point);
+  result.parallax_deg =
+      largest_parallax(views, result.point, [](const auto& v) { return centre(v.T_cw); }) * 180 /
+      M_PI;
   if (!(result.min_depth > 0)) {
     result.cause = Cause::kBehindCamera;
   } else if (!(result.parallax_deg >= options.min_parallax_deg)) {

@@ -60,7 +60,6 @@ struct ObjectLandmark {
   PlaneId support = {};  ///< the plane that it stands on
   /// What its observations are worth: pictures that follow each other err alike.
   double independent = 1;
-  double span = 0;  ///< largest angle between two of the directions from which it was seen, radians
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, reference's frame
 
   bool seen_by(KeyframeId keyframe) const;  ///< by its own picture

@@ -145,25 +145,11 @@ BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
   return upright.fit.usable && better ? upright : free;
 }
 
-double viewing_span(const Map& map, const ObjectLandmark& landmark) {
-  const SE3 T_rw = map.keyframes()[landmark.reference].T_wc.inverse();
-  std::vector<Eigen::Vector3d> directions;
-  for (const ObjectObservation& o : landmark.observations) {
-    const Eigen::Vector3d eye = T_rw * map.camera_of(o).translation();
-    directions.push_back((eye - landmark.ellipsoid.centre()).normalized());
-  }
-  double least = 1;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) least = std::min(least, directions[i].dot(directions[k]));
-  }
-  return std::acos(std::clamp(least, -1.0, 1.0));
-}
-
 std::string refusal(const Map& map, const ObjectLandmark& landmark, const ObjectFit& fit,
                     const ObjectBirthOptions& options) {
   if (fit.views < options.min_views) return "too few views";
-  if (viewing_span(map, landmark) < options.min_span_deg * kRadians) return "too little parallax";
   if (!fit.usable) return "no fit";
+  if (fit.span < options.min_span_deg * kRadians) return "too little parallax";
   if (fit.agreeing < options.min_agreeing * fit.views) return "boxes disagree";
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> place(fit.covariance.topLeftCorner<3, 3>());
   double distance = 0;

@@ -11,7 +11,7 @@ namespace cairn {
 
 struct ObjectBirthOptions {
   int min_views = 4;
-  double min_span_deg = 4;    ///< between the directions from which it was seen
+  double min_span_deg = 4;    ///< between directions from which boxes show it that agree
   double min_agreeing = 0.6;  ///< share of the views that the fit explains
   /// Of the centre, as a share of its distance from the cameras; twice as much where points lie.
   double max_sigma_place = 0.15;
@@ -39,8 +39,5 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
 
 /// Takes a fit over, with its covariance.
 void accept(ObjectLandmark& landmark, const BoxFit& found);
-
-/// The largest angle between two directions from which an object was seen, radians.
-double viewing_span(const Map& map, const ObjectLandmark& landmark);
 
 }  // namespace cairn

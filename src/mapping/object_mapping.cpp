@@ -22,16 +22,14 @@ constexpr double kOneSight = 0.7;   // IoU of a box with what another thing look
 constexpr double kUnsure = 3;       // σ of a thing's place, that it may be off
 constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
 constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
-constexpr double kCovered = 0.3;      // of what is seen where a thing should be, before it
-constexpr double kMostMissed = 0.75;  // of the pictures that should show a thing of the final map
-// Detectors see some things in one picture of three, for seconds.
-constexpr int kPatience = 2;  // pictures that miss a thing, a picture that shows it
+constexpr double kCovered = 0.3;  // of what is seen where a thing should be, before it
+// Detectors see some things in one picture of four, for seconds.
+constexpr int kPatience = 3;  // pictures that miss a thing, a picture that shows it
 
-void update_evidence(Map& map, ObjectLandmark& landmark) {
+void update_evidence(ObjectLandmark& landmark) {
   std::vector<double> times;
   for (const ObjectObservation& o : landmark.observations) times.push_back(o.time);
   landmark.independent = independent_pictures(std::move(times));
-  landmark.span = viewing_span(map, landmark);
 }
 
 // A box that the border cuts on both sides says nothing of where the middle of a thing is.
@@ -133,7 +131,7 @@ void fuse_objects(Map& map) {
       auto& [kept, in_world] = all[first ? i : k];
       map.merge_objects(all[first ? k : i].first, kept);
       ObjectLandmark& whole = map.objects()[kept];
-      update_evidence(map, whole);
+      update_evidence(whole);
       if (const BoxFit found = fit_to_boxes(map, whole); found.fit.usable) accept(whole, found);
       in_world = map.object_in_world(kept);
     }
@@ -220,7 +218,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
       landmark.observations.erase(landmark.observations.begin() + 1 +
                                   2 * landmark.sightings % (kMostViews / 2));
     }
-    update_evidence(map, landmark);
+    update_evidence(landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
   }
   fuse_objects(map);
@@ -236,17 +234,16 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
   drop_foreign_boxes(map);  // most boxes decide what a fit shows, and the others stand out
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     if (landmark.observations.empty()) return map.erase_object(id);
-    update_evidence(map, landmark);
+    update_evidence(landmark);
     const BoxFit found = fit_to_boxes(map, landmark);
     const ObjectFit& fit = found.fit;
     const std::string reason = refusal(map, landmark, fit, options.birth);
     if (fit.usable) accept(landmark, found);
-    const double all = landmark.sightings + landmark.missed;
     landmark.confirmed = landmark.born && reason.empty() && fit.agreeing >= options.min_sightings &&
-                         landmark.missed <= kMostMissed * all;
+                         landmark.missed <= kPatience * int(landmark.sightings);
     spdlog::debug(
-        "object {}: {} pictures, {} missed, span {:.1f} deg, {}: {}", landmark.class_name(),
-        landmark.sightings, landmark.missed, landmark.span * 180 / M_PI, fit.to_string(),
+        "object {}: {} pictures, {} missed, {}: {}", landmark.class_name(), landmark.sightings,
+        landmark.missed, fit.to_string(),
         (found.upright ? "upright, " : "") + (landmark.confirmed ? "kept" : "refused: " + reason));
     if (!landmark.confirmed) map.erase_object(id);
   });

@@ -9,6 +9,7 @@
 
 #include "cairn/geometry/ellipse_projection.h"
 #include "cairn/geometry/median.h"
+#include "cairn/geometry/parallax.h"
 
 namespace cairn {
 namespace {
@@ -186,6 +187,8 @@ bool invert(const Matrix9d& H, Matrix9d& covariance) {
 void judge(const Problem& problem, std::span<const BoxView> views, double loss, ObjectFit& fit) {
   std::vector<double> largest;  // errors, pixels
   largest.reserve(views.size());
+  std::vector<Vector3d> eyes;  // of the views that agree
+  eyes.reserve(views.size());
   for (const BoxView& view : views) {
     const auto box = problem.prediction(fit.ellipsoid, view);
     double error = -1;  // of no edge
@@ -194,10 +197,14 @@ void judge(const Problem& problem, std::span<const BoxView> views, double loss, 
       const int k = int(i);
       error = std::max(error, box ? std::abs(box->edges()[k] - view.box.edges()[k]) : kInfinite);
     }
-    fit.agreeing += box && error <= loss * view.sigma;
+    if (box && error <= loss * view.sigma) {
+      ++fit.agreeing;
+      eyes.push_back(view.T_cw.inverse().translation());
+    }
     if (error >= 0) largest.push_back(error);
   }
   fit.median_error = largest.empty() ? 0 : median(largest);
+  fit.span = largest_parallax(eyes, fit.ellipsoid.centre());
 }
 
 bool usable_input(const Ellipsoid& start, std::span<const BoxView> views) {
@@ -225,8 +232,9 @@ Vector3d turn_residual(const ObjectPrior& prior, const Eigen::Quaterniond& q, Ma
 std::string ObjectFit::to_string() const {
   char text[160];
   std::snprintf(text, sizeof text,
-                "%s of %d boxes, %d agreeing: median %.2f px, cost %.4g in %d steps",
-                usable ? "ellipsoid" : "no ellipsoid", views, agreeing, median_error, cost, steps);
+                "%s of %d boxes, %d agreeing over %.1f deg: median %.2f px, cost %.4g in %d steps",
+                usable ? "ellipsoid" : "no ellipsoid", views, agreeing, span * 180 / M_PI,
+                median_error, cost, steps);
   return text;
 }
 

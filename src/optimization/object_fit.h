@@ -52,6 +52,7 @@ struct ObjectFit {
   double cost = 0;
   double median_error = 0;      ///< of the views' largest uncut edges, pixels
   int views = 0, agreeing = 0;  ///< of those, with all uncut edges within `loss` σ
+  double span = 0;  ///< largest angle between directions in which agreeing views see it, radians
   int steps = 0;
   std::string to_string() const;
 };

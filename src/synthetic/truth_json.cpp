@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cairn/geometry/parallax.h"
 #include "cairn/synthetic/object_truth.h"
 
 namespace cairn {
@@ -67,6 +68,8 @@ Json objects_json(const Scene& scene, const VisibilityCount& visible) {
     if (q.w() < 0) q.coeffs() = -q.coeffs();
     Json supported_by = nullptr;
     if (thing.supported_by) supported_by = *thing.supported_by;
+    const std::vector<Vector3d>& eyes = visible.of(truth.thing);
+    const double span = largest_parallax(eyes, truth.ellipsoid.centre);
     list.push_back({{"id", truth.thing},
                     {"class", thing.model.class_name},
                     {"center", vector_json(truth.ellipsoid.centre)},
@@ -74,7 +77,8 @@ Json objects_json(const Scene& scene, const VisibilityCount& visible) {
                     {"semi_axes", vector_json(truth.ellipsoid.semi_axes)},
                     {"symmetry", name_of(thing.model.symmetry)},
                     {"axis", vector_json(truth.up)},
-                    {"visible_frames", visible.of(truth.thing)},
+                    {"visible_frames", eyes.size()},
+                    {"visible_span_deg", std::round(span * 1800 / M_PI) / 10},
                     {"surface_points", points_json(truth.surface_points)},
                     {"supported_by", supported_by}});
   }
@@ -95,9 +99,11 @@ Json pairs_json(const Scene& scene, double cosine) {
 
 }  // namespace
 
-void VisibilityCount::add(const FrameTruth& truth, double scale) {
+void VisibilityCount::add(const FrameTruth& truth, const Vector3d& eye, double scale) {
   for (const ObjectView& view : truth.objects) {
-    if (view.pixels * scale >= kEnoughPixels && view.visible >= kEnoughShare) ++frames_[view.thing];
+    if (view.pixels * scale >= kEnoughPixels && view.visible >= kEnoughShare) {
+      eyes_[view.thing].push_back(eye);
+    }
   }
   for (const PlaneView& view : truth.visible_planes) {
     if (view.pixels >= kEnoughPlane * double(truth.depth.total())) ++plane_frames_[view.plane];
@@ -109,9 +115,10 @@ int VisibilityCount::of_plane(int plane) const {
   return found == plane_frames_.end() ? 0 : found->second;
 }
 
-int VisibilityCount::of(int thing) const {
-  const auto found = frames_.find(thing);
-  return found == frames_.end() ? 0 : found->second;
+const std::vector<Vector3d>& VisibilityCount::of(int thing) const {
+  static const std::vector<Vector3d> kNone;
+  const auto found = eyes_.find(thing);
+  return found == eyes_.end() ? kNone : found->second;
 }
 
 std::string world_json(const World& world, const VisibilityCount& visible) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "cairn/synthetic/world.h"
 
@@ -11,14 +13,17 @@ namespace cairn {
 /// mapped.
 class VisibilityCount {
  public:
-  /// `scale`: how many pixels of the real picture one of the truth's stands for.
-  void add(const FrameTruth& truth, double scale = 1);
-  int of(int thing) const;
+  /// `eye`: where the frame was taken; `scale`: how many pixels of the real picture one of the
+  /// truth's stands for.
+  void add(const FrameTruth& truth, const Eigen::Vector3d& eye, double scale = 1);
+  /// From where a thing is well seen, a frame each.
+  const std::vector<Eigen::Vector3d>& of(int thing) const;
   /// Frames of which a plane fills a fiftieth at least.
   int of_plane(int plane) const;
 
  private:
-  std::map<int, int> frames_, plane_frames_;
+  std::map<int, std::vector<Eigen::Vector3d>> eyes_;
+  std::map<int, int> plane_frames_;
 };
 
 /// world.json: the schema is in docs/synthetic.md.

@@ -71,7 +71,7 @@ OptionTable::OptionTable(Options& o) {
   add("objects.min_overlap", objects.association.min_overlap, "", {0.05, 0.95}, "IoU of a box and an object's projection where too few points tell");
   add("objects.max_centre", objects.association.max_centre, "", {0.1, 2}, "between a box and an object's projected centre, in half diagonals");
   add("objects.min_views", objects.birth.min_views, "keyframes", {2, 100}, "that show an object before it is born");
-  add("objects.min_span_deg", objects.birth.min_span_deg, "degrees", {0.5, 90}, "between directions from which it was seen");
+  add("objects.min_span_deg", objects.birth.min_span_deg, "degrees", {0.5, 90}, "between directions in which boxes show it that agree");
   add("objects.min_agreeing", objects.birth.min_agreeing, "", {0, 1}, "of its boxes, that its ellipsoid explains");
   add("objects.max_sigma_place", objects.birth.max_sigma_place, "", {0.005, 1}, "of its centre, as a share of its distance");
   add("objects.max_sigma_size", objects.birth.max_sigma_size, "", {0.01, 5}, "of the logarithm of its size");

@@ -52,6 +52,10 @@ TEST_F(Synth, WritesPicturesWithTheirWholeTruth) {
   ASSERT_EQ(detected.size(), 2U);
   EXPECT_EQ(truth[1]["timestamp"], detected[1]["timestamp"]);
   EXPECT_FALSE(detected[0]["objects"].empty());
+  const auto table = lines("world.json").at(0)["objects"][0];
+  EXPECT_EQ(table["visible_frames"], 2);
+  EXPECT_GT(table["visible_span_deg"], 0) << "seen from two places";
+  EXPECT_LT(table["visible_span_deg"], 5);
 }
 
 TEST_F(Synth, ExactPerceptionIsTheTruth) {

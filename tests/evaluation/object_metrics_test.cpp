@@ -67,6 +67,18 @@ TEST(ObjectMetrics, DoNotBlameForWhatIsHardlySeen) {
   EXPECT_EQ(object_metrics(truth, found, options).missed, 1u);
 }
 
+TEST(ObjectMetrics, DoNotBlameForWhatIsSeenFromOneSideOnly) {
+  std::vector<TrueObject> truth = {true_object("cup", {0, 0, 0}, kCupAxes),
+                                   true_object("cup", {1, 0, 0}, kCupAxes)};
+  truth[0].visible_span_deg = 14;
+  truth[1].visible_span_deg = 16;
+  const ObjectMetrics m = object_metrics(truth, {});
+  EXPECT_EQ(m.missed, 1u);
+  ObjectMetricsOptions options;
+  options.min_visible_span_deg = 1;
+  EXPECT_EQ(object_metrics(truth, {}, options).missed, 2u);
+}
+
 TEST(ObjectMetrics, MatchNeighboursSuchThatAllAreServed) {
   // The first found one is nearest to the second true one, but the second one needs that.
   const std::vector<TrueObject> truth = {true_object("cup", {0, 0, 0}, kCupAxes),

@@ -198,6 +198,7 @@ TEST_F(WorldFiles, ThatAreBadAreNamedWithTheReason) {
   EXPECT_THAT(with("/objects/0/rotation", {0, 0, 0, 0}), HasSubstr("unit quaternion"));
   EXPECT_THAT(with("/objects/0/symmetry", "most"), HasSubstr("any_turn"));
   EXPECT_THAT(with("/objects/0/visible_frames", 1.5), HasSubstr("no integer"));
+  EXPECT_THAT(with("/objects/0/visible_span_deg", "wide"), HasSubstr("visible_span_deg"));
   EXPECT_THAT(with("/planes/0/normal", {0, 0, 2}), HasSubstr("planes[0].normal"));
   EXPECT_THAT(with("/planes/0/outline", {{0, 0, 0}}), HasSubstr("three corners"));
   write("world.json", world_json().dump());

@@ -128,6 +128,17 @@ TEST_F(MapObjectsOfPictures, AnObjectThatShouldBeSeenAndIsNotDies) {
   EXPECT_THAT(objects_of(map), SizeIs(0));
 }
 
+TEST_F(MapObjectsOfPictures, AnObjectThatTheDetectorSeesInEveryFourthPictureLives) {
+  film(60, 40);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    std::vector<SeenObject> seen;
+    if (i % 4 == 0) seen = {seen_thing(map, keyframes[i], a_cup())};
+    show(keyframes[i], seen);
+  }
+  settle_objects(map, options);
+  EXPECT_THAT(objects_of(map), SizeIs(1));
+}
+
 TEST_F(MapObjectsOfPictures, AGuessThatNobodyConfirmsIsForgotten) {
   film(20, 10);
   show(keyframes[0], {seen_thing(map, keyframes[0], a_cup())});

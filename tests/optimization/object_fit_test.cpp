@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <vector>
 
 #include "cairn/geometry/ellipse_projection.h"
+#include "cairn/geometry/parallax.h"
 #include "geometry/scene.h"
 
 namespace cairn {
@@ -85,6 +87,19 @@ TEST(ObjectFit, IsNotMovedByBoxesOfSomethingElse) {
   EXPECT_LT((before.ellipsoid.centre() - after.ellipsoid.centre()).norm(), 0.015);
   EXPECT_LE(after.agreeing, 10);
   EXPECT_GE(after.agreeing, 9);
+}
+
+TEST(ObjectFit, IsSeenFromWhereBoxesAgreeWithIt) {
+  auto views = views_of(60);
+  const ObjectPrior prior{.usual = 0.15};
+  const auto eye_of = [](const BoxView& view) { return view.T_cw.inverse().translation(); };
+  const double all = fit_object(kStart, views, kCamera, prior).span;
+  EXPECT_NEAR(all, largest_parallax(views, kTruth.centre(), eye_of), 0.02);
+  Box2& box = views.front().box;
+  box = {box.x0 + 90, box.y0 - 40, box.x1 + 60, box.y1 - 70};
+  const std::span<const BoxView> others(views.begin() + 1, views.end());
+  EXPECT_NEAR(fit_object(kStart, views, kCamera, prior).span,
+              largest_parallax(others, kTruth.centre(), eye_of), 0.02);
 }
 
 TEST(ObjectFit, TakesNoCutEdgeForAnEdge) {
