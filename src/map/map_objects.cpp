@@ -34,15 +34,16 @@ void Map::merge_objects(ObjectId from, ObjectId into) {
   ObjectLandmark& target = objects_[into];
   for (const auto& [name, votes] : moved.votes) target.votes[name] += votes;
   for (const auto& [thing, times] : moved.things) target.things[thing] += times;
-  target.sightings = std::max(target.sightings, moved.sightings);  // many of them are the same
   target.last_seen = std::max(target.last_seen, moved.last_seen);
   target.last_time = std::max(target.last_time, moved.last_time);
   for (const ObjectObservation& o : moved.observations) {
     const auto same = [&](const ObjectObservation& other) { return other.time == o.time; };
     if (std::none_of(target.observations.begin(), target.observations.end(), same)) {
       target.observations.push_back(o);
+      ++target.sightings;
     }
   }
+  target.sightings = std::max(target.sightings, moved.sightings);  // both may have forgotten some
   erase_object(from);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cairn/geometry/ellipse_projection.h"
+#include "cairn/geometry/triangulation.h"
 #include "cairn/map/independent_pictures.h"
 #include "cairn/map/object_classes.h"
 #include "cairn/mapping/foreign_boxes.h"
@@ -20,6 +21,8 @@ constexpr double kOneThing = 0.25;  // IoU of two ellipsoids of one family that 
 constexpr double kOnePlace = 0.4;   // the same, of any two: things do not share their place
 constexpr double kOneSight = 0.7;   // IoU of a box with what another thing looks like there
 constexpr double kUnsure = 3;       // σ of a thing's place, that it may be off
+constexpr double kAlike = 0.01;     // radians between two directions that are much the same
+constexpr double kNearlyAll = 0.9;  // of the boxes of two guesses, that one thing explains
 constexpr double kInside = 1.2;     // level of a point on the thing: boxes are rough
 constexpr double kNearer = 0.9, kFarther = 1.5;  // of the distance from which a thing was seen
 constexpr double kCovered = 0.3;  // of what is seen where a thing should be, before it
@@ -81,6 +84,50 @@ void bear(Map& map, ObjectLandmark& landmark, const ObjectBirthOptions& options,
     ++refusals[reason];
     spdlog::debug("object {} is not born: {} ({})", landmark.class_name(), reason, fit.to_string());
   }
+}
+
+// Do the middles of two boxes look at one place?
+bool look_at_one_place(const Map& map, const ObjectObservation& a, const ObjectObservation& b) {
+  const Pinhole& pinhole = map.view().pinhole();
+  const SE3 T_ba = map.camera_of(b).inverse() * map.camera_of(a);
+  const TwoRayPoint at = triangulate_two_rays(T_ba, pinhole.unproject(a.box.centre()),
+                                              pinhole.unproject(b.box.centre()));
+  if (at.parallax < kAlike) return true;  // that cannot be told
+  return at.in_front() && a.box.contains(pinhole.project(at.point)) &&
+         b.box.contains(pinhole.project(T_ba * at.point));
+}
+
+// A detector that sees a thing now and then begins a guess of it each time, and none of them has
+// the parallax that all have. What could be born of the boxes of two, if it explains nearly all of
+// them, is one thing.
+void join_guesses(Map& map, ObjectId id, const ObjectBirthOptions& options,
+                  std::map<std::string, int>& refusals) {
+  const ObjectLandmark& guess = map.objects()[id];
+  if (guess.observations.size() < 2) return;
+  ObjectId found_with;
+  map.objects().for_each([&](ObjectId other_id, const ObjectLandmark& other) {
+    if (found_with.valid() || other_id == id || other.born || other.last_seen == guess.last_seen ||
+        other.observations.size() < 2 ||
+        !may_be_one_class(guess.class_name(), other.class_name()) ||
+        !look_at_one_place(map, guess.observations.back(), other.observations.back())) {
+      return;
+    }
+    ObjectLandmark both = guess;
+    both.observations.insert(both.observations.end(), other.observations.begin(),
+                             other.observations.end());
+    update_evidence(both);
+    const ObjectFit fit = fit_to_boxes(map, both).fit;
+    if (fit.usable && fit.agreeing >= kNearlyAll * fit.views &&
+        refusal(map, both, fit, options).empty()) {
+      found_with = other_id;
+    }
+  });
+  if (!found_with.valid()) return;
+  spdlog::debug("objects: two guesses of a {} are one thing", guess.class_name());
+  map.merge_objects(found_with, id);
+  ObjectLandmark& landmark = map.objects()[id];
+  update_evidence(landmark);
+  bear(map, landmark, options, refusals);
 }
 
 // Most boxes of a thing show another one: a detector gives one thing two names in one picture.
@@ -220,6 +267,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     }
     update_evidence(landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
+    if (!landmark.born) join_guesses(map, decisions[i].object, options.birth, refusals);
   }
   fuse_objects(map);
   let_die(map, id, options);

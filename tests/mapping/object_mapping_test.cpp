@@ -204,6 +204,36 @@ TEST_F(MapObjectsOfPictures, AThingThatMayBeFarOffIsTheOneThatItsBoxesShow) {
   EXPECT_THAT(objects_of(map), ::testing::ElementsAre(cup));
 }
 
+TEST_F(MapObjectsOfPictures, TwoGuessesThatOneThingExplainsAreThatThing) {
+  film(24, 50);
+  options.probation = 100;
+  for (const std::size_t i : {0u, 1u, 2u})
+    show(keyframes[i], {seen_thing(map, keyframes[i], a_cup())});
+  ASSERT_THAT(objects_of(map), SizeIs(1));
+  ObjectLandmark& behind =
+      map.objects()[objects_of(map)[0]];  // where later boxes do not look for it
+  behind.ellipsoid.T = SE3(behind.ellipsoid.T.rotation(), 2 * behind.ellipsoid.centre());
+  show(keyframes[20], {seen_thing(map, keyframes[20], a_cup())});
+  ASSERT_THAT(objects_of(map), SizeIs(2));
+  show(keyframes[21], {seen_thing(map, keyframes[21], a_cup())});
+  ASSERT_THAT(objects_of(map), SizeIs(1));
+  const ObjectId cup = objects_of(map)[0];
+  EXPECT_TRUE(map.objects()[cup].born);
+  EXPECT_EQ(map.objects()[cup].sightings, 5u);
+  EXPECT_LT((map.object_in_world(cup).centre() - a_cup().centre()).norm(), 0.01);
+}
+
+TEST_F(MapObjectsOfPictures, TwoGuessesOfNeighboursStayTwo) {
+  film(24, 50);
+  options.probation = 100;
+  const Ellipsoid right = a_cup({0.3, 0, 1.2});
+  for (const std::size_t i : {0u, 1u, 2u})
+    show(keyframes[i], {seen_thing(map, keyframes[i], a_cup())});
+  for (const std::size_t i : {20u, 21u, 22u})
+    show(keyframes[i], {seen_thing(map, keyframes[i], right)});
+  EXPECT_THAT(objects_of(map), SizeIs(2));
+}
+
 TEST_F(MapObjectsOfPictures, BoxesOfItsNeighbourDoNotCostAnObjectItsPlace) {
   film(24, 50);
   const Ellipsoid left = a_cup(), right = a_cup({0.15, 0, 1.2});
