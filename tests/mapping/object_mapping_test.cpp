@@ -43,6 +43,12 @@ class MapObjectsOfPictures : public ::testing::Test {
     }
   }
 
+  void show_in(std::initializer_list<std::size_t> pictures, const Ellipsoid& thing) {
+    for (const std::size_t i : pictures) {
+      show(keyframes[i], {seen_thing(map, keyframes[i], thing)});
+    }
+  }
+
   /// What fusion gives to the other, should both be one.
   ObjectLandmark lesser_copy_of(ObjectId id) {
     ObjectLandmark copy = map.objects()[id];
@@ -207,15 +213,14 @@ TEST_F(MapObjectsOfPictures, AThingThatMayBeFarOffIsTheOneThatItsBoxesShow) {
 TEST_F(MapObjectsOfPictures, TwoGuessesThatOneThingExplainsAreThatThing) {
   film(24, 50);
   options.probation = 100;
-  for (const std::size_t i : {0u, 1u, 2u})
-    show(keyframes[i], {seen_thing(map, keyframes[i], a_cup())});
+  show_in({0, 1, 2}, a_cup());
   ASSERT_THAT(objects_of(map), SizeIs(1));
-  ObjectLandmark& behind =
-      map.objects()[objects_of(map)[0]];  // where later boxes do not look for it
+  // Taken to be where later boxes do not look for it.
+  ObjectLandmark& behind = map.objects()[objects_of(map)[0]];
   behind.ellipsoid.T = SE3(behind.ellipsoid.T.rotation(), 2 * behind.ellipsoid.centre());
-  show(keyframes[20], {seen_thing(map, keyframes[20], a_cup())});
+  show_in({20}, a_cup());
   ASSERT_THAT(objects_of(map), SizeIs(2));
-  show(keyframes[21], {seen_thing(map, keyframes[21], a_cup())});
+  show_in({21}, a_cup());
   ASSERT_THAT(objects_of(map), SizeIs(1));
   const ObjectId cup = objects_of(map)[0];
   EXPECT_TRUE(map.objects()[cup].born);
@@ -227,10 +232,8 @@ TEST_F(MapObjectsOfPictures, TwoGuessesOfNeighboursStayTwo) {
   film(24, 50);
   options.probation = 100;
   const Ellipsoid right = a_cup({0.3, 0, 1.2});
-  for (const std::size_t i : {0u, 1u, 2u})
-    show(keyframes[i], {seen_thing(map, keyframes[i], a_cup())});
-  for (const std::size_t i : {20u, 21u, 22u})
-    show(keyframes[i], {seen_thing(map, keyframes[i], right)});
+  show_in({0, 1, 2}, a_cup());
+  show_in({20, 21, 22}, right);
   EXPECT_THAT(objects_of(map), SizeIs(2));
 }
 
