@@ -30,20 +30,7 @@ void Map::observe_object(ObjectId id, KeyframeId keyframe, const SeenObject& see
 }
 
 void Map::merge_objects(ObjectId from, ObjectId into) {
-  const ObjectLandmark moved = objects_[from];
-  ObjectLandmark& target = objects_[into];
-  for (const auto& [name, votes] : moved.votes) target.votes[name] += votes;
-  for (const auto& [thing, times] : moved.things) target.things[thing] += times;
-  target.last_seen = std::max(target.last_seen, moved.last_seen);
-  target.last_time = std::max(target.last_time, moved.last_time);
-  for (const ObjectObservation& o : moved.observations) {
-    const auto same = [&](const ObjectObservation& other) { return other.time == o.time; };
-    if (std::none_of(target.observations.begin(), target.observations.end(), same)) {
-      target.observations.push_back(o);
-      ++target.sightings;
-    }
-  }
-  target.sightings = std::max(target.sightings, moved.sightings);  // both may have forgotten some
+  objects_[into].take_sightings(objects_[from]);
   erase_object(from);
 }
 

@@ -10,6 +10,21 @@ bool ObjectLandmark::seen_by(KeyframeId keyframe) const {
   });
 }
 
+void ObjectLandmark::take_sightings(const ObjectLandmark& other) {
+  for (const auto& [name, score] : other.votes) votes[name] += score;
+  for (const auto& [thing, times] : other.things) things[thing] += times;
+  last_seen = std::max(last_seen, other.last_seen);
+  last_time = std::max(last_time, other.last_time);
+  for (const ObjectObservation& o : other.observations) {
+    const auto same = [&](const ObjectObservation& own) { return own.time == o.time; };
+    if (std::none_of(observations.begin(), observations.end(), same)) {
+      observations.push_back(o);
+      ++sightings;
+    }
+  }
+  sightings = std::max(sightings, other.sightings);  // both may have forgotten some
+}
+
 const std::string& ObjectLandmark::class_name() const {
   static const std::string kNone;
   const auto most = std::max_element(

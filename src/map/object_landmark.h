@@ -63,6 +63,8 @@ struct ObjectLandmark {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, reference's frame
 
   bool seen_by(KeyframeId keyframe) const;  ///< by its own picture
+  /// What `other` has seen is of this one, too; of one picture's two boxes its own stays.
+  void take_sightings(const ObjectLandmark& other);
   /// The class that has most votes; of equal ones the first by name.
   const std::string& class_name() const;
   double score() const;  ///< mean of the observations'

@@ -113,8 +113,7 @@ void join_guesses(Map& map, ObjectId id, const ObjectBirthOptions& options,
       return;
     }
     ObjectLandmark both = guess;
-    both.observations.insert(both.observations.end(), other.observations.begin(),
-                             other.observations.end());
+    both.take_sightings(other);
     update_evidence(both);
     const ObjectFit fit = fit_to_boxes(map, both).fit;
     if (fit.usable && fit.agreeing >= kNearlyAll * fit.views &&
@@ -212,6 +211,10 @@ bool should_be_seen(const Map& map, const Keyframe& keyframe, ObjectId id) {
   return before <= kCovered * seen;
 }
 
+bool is_given_up(const ObjectLandmark& landmark, const ObjectMappingOptions& options) {
+  return landmark.missed > std::max(options.max_missed, kPatience * int(landmark.sightings));
+}
+
 void let_die(Map& map, KeyframeId id, const ObjectMappingOptions& options) {
   const Keyframe& keyframe = map.keyframes()[id];
   map.objects().for_each([&](ObjectId object, ObjectLandmark& landmark) {
@@ -221,8 +224,8 @@ void let_die(Map& map, KeyframeId id, const ObjectMappingOptions& options) {
       return;
     }
     if (landmark.last_seen == keyframe.sequence || !should_be_seen(map, keyframe, object)) return;
-    if (++landmark.missed <= std::max(options.max_missed, kPatience * int(landmark.sightings)))
-      return;
+    ++landmark.missed;
+    if (!is_given_up(landmark, options)) return;
     spdlog::debug("object {} dies: {} pictures should have shown it", landmark.class_name(),
                   landmark.missed);
     map.erase_object(object);
@@ -288,7 +291,7 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
     const std::string reason = refusal(map, landmark, fit, options.birth);
     if (fit.usable) accept(landmark, found);
     landmark.confirmed = landmark.born && reason.empty() && fit.agreeing >= options.min_sightings &&
-                         landmark.missed <= kPatience * int(landmark.sightings);
+                         !is_given_up(landmark, options);
     spdlog::debug(
         "object {}: {} pictures, {} missed, {}: {}", landmark.class_name(), landmark.sightings,
         landmark.missed, fit.to_string(),

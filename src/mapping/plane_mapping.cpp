@@ -22,7 +22,7 @@ constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of
 // Planes farther from parallel or perpendicular are something else, however little is known of
 // them.
 constexpr double kMaxRelationAngle = 12 * kRadians;
-constexpr double kMaxImplied = 25 * kRadians;  // where labels say so
+constexpr double kMaxImplied = 25 * kRadians;  // the same, where labels say so
 constexpr double kIndependentOfBare = 3;       // pictures that a surface without points must have
 constexpr double kProbationOfBare = 30;        // seconds
 constexpr double kMaxTiltOfBare = 2.5 * kRadians;
@@ -111,9 +111,22 @@ bool is_mislabelled(const Map& map, PlaneId id, const std::optional<Upward>& up)
   return lean < kHalfway ? is_upright(label) : is_level(label);
 }
 
+// What no picture shows together may be turned against each other by what drifted in between.
+bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b) {
+  return std::any_of(a.observations.begin(), a.observations.end(),
+                     [&](const PlaneObservation& o) { return b.seen_by(o.keyframe); });
+}
+
+// How far two planes may stand from what labels say of them. Drift may have turned one against the
+// other, unless one picture shows both; with Manhattan relations adjustments set that right.
+double most_off(const PlaneLandmark& a, const PlaneLandmark& b, bool manhattan, bool finished) {
+  return finished || (!manhattan && seen_together(a, b)) ? kMaxRelationAngle : kMaxImplied;
+}
+
 // Labels say how two planes stand to each other. By far not so: one of the two is a phantom, or has
 // a wrong label. Pictures vote, its own for it.
-bool denied_by_labels(const Map& map, PlaneId id, const std::optional<Upward>& up) {
+bool denied_by_labels(const Map& map, PlaneId id, const std::optional<Upward>& up, bool manhattan,
+                      bool finished) {
   const PlaneLandmark& landmark = map.planes()[id];
   const Plane plane = map.plane_in_world(id);
   std::size_t yes = landmark.sightings, no = 0;
@@ -121,7 +134,7 @@ bool denied_by_labels(const Map& map, PlaneId id, const std::optional<Upward>& u
     const auto implied = implied_relation(landmark.label(), known.label());
     if (other == id || !known.confirmed || !implied || is_mislabelled(map, other, up)) return;
     const double off = angle_off(*implied, plane, map.plane_in_world(other));
-    (off < kMaxImplied ? yes : no) += known.sightings;
+    (off < most_off(landmark, known, manhattan, finished) ? yes : no) += known.sightings;
   });
   return no > yes;
 }
@@ -180,21 +193,15 @@ void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
   });
 }
 
-void update_evidence(Map& map, const PlaneMappingOptions& options) {
+void update_evidence(Map& map, const PlaneMappingOptions& options, bool finished = false) {
   const std::optional<Upward> up = up_by_cameras(map);
   map.planes().for_each([&](PlaneId id, PlaneLandmark& landmark) {
     refine_landmark(map, id, options.association.point_sigma, options.manhattan);
     landmark.spread = spread(map, id);
-    landmark.denied = denied_by_labels(map, id, up);
+    landmark.denied = denied_by_labels(map, id, up, options.manhattan, finished);
     landmark.confirmed = confirmed(map, id, options);
     if (landmark.confirmed) landmark.roughness = plane_roughness(map, id);
   });
-}
-
-// What no picture shows together may be turned against each other by what drifted in between.
-bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b) {
-  return std::any_of(a.observations.begin(), a.observations.end(),
-                     [&](const PlaneObservation& o) { return b.seen_by(o.keyframe); });
 }
 
 // A relation begins where the angle is within two σ of it, and ends beyond three; where only drift
@@ -235,6 +242,16 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
       }
     }
   }
+}
+
+void keep_confirmed(Map& map, const PlaneMappingOptions& options, bool finished) {
+  update_evidence(map, options, finished);
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
+    const bool stays = landmark.confirmed || (is_bare_surface(landmark, options) &&
+                                              landmark.independent >= kIndependentOfBare);
+    log_plane(id, landmark, stays ? "kept" : "refused");
+    if (!stays) map.erase_plane(id);
+  });
 }
 
 }  // namespace
@@ -292,19 +309,13 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
 }
 
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options) {
-  update_evidence(map, options);
-  map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
-    const bool stays = landmark.confirmed || (is_bare_surface(landmark, options) &&
-                                              landmark.independent >= kIndependentOfBare);
-    log_plane(id, landmark, stays ? "kept" : "refused");
-    if (!stays) map.erase_plane(id);
-  });
+  keep_confirmed(map, options, false);
 }
 
 void settle_planes(Map& map, const PlaneMappingOptions& options) {
   PlaneMappingOptions settled = options;
   settled.max_spread *= kSpreadInTheEnd;
-  remove_unconfirmed_planes(map, settled);
+  keep_confirmed(map, settled, true);
 }
 
 }  // namespace cairn

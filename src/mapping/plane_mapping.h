@@ -40,7 +40,8 @@ std::vector<PointId> map_planes(Map& map, KeyframeId keyframe, const KeyframePer
 void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options);
 
 /// After the full adjustment: the same anew, as points that were no good are gone and the others
-/// are where they belong; so they may be spread by half as much.
+/// are where they belong; so they may be spread by half as much, and no drift excuses a wall that
+/// leans.
 void settle_planes(Map& map, const PlaneMappingOptions& options);
 
 }  // namespace cairn

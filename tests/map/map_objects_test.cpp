@@ -65,9 +65,11 @@ TEST_F(MapObjects, StayWhereTheyAreWhenTheirKeyframeGoes) {
 TEST_F(MapObjects, TakeOverTheBoxesOfWhatTheyAreFusedWith) {
   const ObjectId other = map.add_object(
       keyframes[1], seen_thing(map, keyframes[1], a_cup(), "bowl"), cup_from(keyframes[1]));
+  map.observe_object(other, keyframes[0], seen_thing(map, keyframes[0], a_cup(), "bowl"));
   map.merge_objects(other, cup);
   ASSERT_THAT(objects_of(map), ::testing::ElementsAre(cup));
-  EXPECT_THAT(map.objects()[cup].observations, SizeIs(2));
+  EXPECT_THAT(map.objects()[cup].observations, SizeIs(2)) << "one picture, one box";
+  EXPECT_EQ(map.objects()[cup].sightings, 2u);
   EXPECT_EQ(map.objects()[cup].votes.size(), 2u);
 }
 

@@ -332,6 +332,37 @@ TEST_F(MapPlanesOfPictures, WhatIsClearlyASurfaceMayBeMissedMoreOften) {
   }
 }
 
+// It leans by 18 degrees over a floor that more pictures show. Relations might set it right.
+TEST_F(MapPlanesOfPictures, WallsThatLeanStayOutOfTheMap) {
+  const auto leaning = rectangle({-1, -1, 2.7}, {2, 0, 0}, {0, 1.2, 0.4});
+  points = grid_on(leaning, 6);
+  const auto on_floor = grid_on(floor, 6);
+  points.insert(points.end(), on_floor.begin(), on_floor.end());
+  struct Case {
+    std::string label;
+    bool manhattan;
+    std::size_t before, finished;  // planes, before and after the full adjustment
+  };
+  for (const auto& [label, manhattan, before, finished] :
+       {Case{"cabinet", false, 2, 2}, {"wall", false, 1, 1}, {"wall", true, 2, 1}}) {
+    options.manhattan = manhattan;
+    map = map_of(points, few_poses(10));
+    int pictures = 0;
+    for (const KeyframeId id : keyframes_of(map)) {
+      map.keyframes()[id].depth.assign(points.size(), 1);  // looked at
+      KeyframePerception seen = perceive(map, id, {leaning, floor}, 36, 5, 0.04);
+      seen.planes[0].label = label;
+      seen.planes[1].label = "floor";
+      if (++pictures <= 3) seen.planes.erase(seen.planes.begin());
+      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+    }
+    remove_unconfirmed_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(before)) << label << ", " << manhattan;
+    settle_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(finished)) << label << ", " << manhattan;
+  }
+}
+
 // Of 36 points half lie before the wall and half behind it.
 TEST_F(MapPlanesOfPictures, InTheFinishedMapSurfacesMustBeFlatter) {
   for (const double spread : {0.007, 0.013}) {
