@@ -117,10 +117,13 @@ bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b) {
                      [&](const PlaneObservation& o) { return b.seen_by(o.keyframe); });
 }
 
-// How far two planes may stand from what labels say of them. Drift may have turned one against the
-// other, unless one picture shows both; with Manhattan relations adjustments set that right.
-double most_off(const PlaneLandmark& a, const PlaneLandmark& b, bool manhattan, bool finished) {
-  return finished || (!manhattan && seen_together(a, b)) ? kMaxRelationAngle : kMaxImplied;
+// How far a plane may stand from what labels say of it and another one. Drift may have turned one
+// against the other, unless one picture shows both; with Manhattan relations adjustments set that
+// right. No drift lets walls lean in the end, but points on what stands before them.
+double most_off(const PlaneLandmark& landmark, const PlaneLandmark& other, bool manhattan,
+                bool finished) {
+  const bool known = finished || (!manhattan && seen_together(landmark, other));
+  return is_upright(landmark.label()) && known ? kMaxRelationAngle : kMaxImplied;
 }
 
 // Labels say how two planes stand to each other. By far not so: one of the two is a phantom, or has
