@@ -29,6 +29,7 @@ constexpr double kMaxTiltOfBare = 2.5 * kRadians;
 constexpr double kHalfway = 45 * kRadians;                   // between level and upright
 constexpr double kShareOfClear = 0.9, kSpreadOfClear = 0.2;  // of max_spread
 constexpr double kSpreadInTheEnd = 0.5;                      // of max_spread
+constexpr double kLeastSlant = 4 * kRadians;                 // of a road seen from a car: seven
 constexpr double kShareOfBare = 0.5;  // of the points in its masks, where there is one that tells
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
@@ -159,25 +160,40 @@ bool is_clear(const PlaneLandmark& landmark, const PlaneMappingOptions& options)
   return landmark.share >= kShareOfClear && landmark.spread <= kSpreadOfClear * options.max_spread;
 }
 
+// The angle between the plane and the rays on which most pictures show it, negative from behind: no
+// picture shows a surface edge-on.
+double slant(const Map& map, PlaneId id) {
+  const PlaneLandmark& landmark = map.planes()[id];
+  const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
+  const Eigen::Vector3d normal = T_wr.rotation() * landmark.plane.facing_origin().normal();
+  std::vector<double> sines;
+  for (const PlaneObservation& o : landmark.observations) {
+    const SE3& T_wk = map.keyframes()[o.keyframe].T_wc;
+    sines.push_back(-normal.dot(T_wk.rotation() * o.centroid.normalized()));
+  }
+  return sines.empty() ? kHalfway : std::asin(std::clamp(median(sines), -1.0, 1.0));
+}
+
 bool confirmed(const Map& map, PlaneId id, const PlaneMappingOptions& options) {
   const PlaneLandmark& landmark = map.planes()[id];
   const auto measured = std::count_if(landmark.points.begin(), landmark.points.end(),
                                       [&](PointId p) { return !map.points()[p].assumed; });
   return !landmark.denied && static_cast<int>(landmark.sightings) >= options.min_sightings &&
-         landmark.independent >= kMinIndependent &&
+         landmark.independent >= kMinIndependent && slant(map, id) >= kLeastSlant &&
          static_cast<int>(measured) >= options.min_points &&
          landmark.sigma_tilt <= options.max_tilt_sigma_deg * kRadians &&
          landmark.spread <= options.max_spread && landmark.share >= options.min_share &&
          landmark.detected >= (is_clear(landmark, options) ? 0.5 : 1.0) * options.min_detected;
 }
 
-void log_plane(PlaneId id, const PlaneLandmark& landmark, const char* fate) {
+void log_plane(const Map& map, PlaneId id, const char* fate) {
+  const PlaneLandmark& landmark = map.planes()[id];
   spdlog::debug(
-      "plane {} ({}): {} pictures, {:.2f} of all, {} points, {:.2f} of all, spread {:.4f}, tilt "
-      "{:.1f} deg{}: {}",
-      int(id.slot), landmark.label(), landmark.sightings, landmark.detected, landmark.points.size(),
-      landmark.share, landmark.spread, landmark.sigma_tilt / kRadians,
-      landmark.denied ? ", denied by labels" : "", fate);
+      "plane {} ({}): {} pictures, {:.2f} of all, at {:.1f} deg, {} points, {:.2f} of all, spread "
+      "{:.4f}, tilt {:.1f} deg{}: {}",
+      int(id.slot), landmark.label(), landmark.sightings, landmark.detected,
+      slant(map, id) / kRadians, landmark.points.size(), landmark.share, landmark.spread,
+      landmark.sigma_tilt / kRadians, landmark.denied ? ", denied by labels" : "", fate);
 }
 
 void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
@@ -191,7 +207,7 @@ void cull_planes(Map& map, double now, const PlaneMappingOptions& options) {
     const bool late =
         std::none_of(landmark.observations.begin(), landmark.observations.end(), seen_lately);
     if (!late || confirmed(map, id, options)) return;
-    log_plane(id, landmark, "forgotten");
+    log_plane(map, id, "forgotten");
     map.erase_plane(id);
   });
 }
@@ -252,7 +268,7 @@ void keep_confirmed(Map& map, const PlaneMappingOptions& options, bool finished)
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     const bool stays = landmark.confirmed || (is_bare_surface(landmark, options) &&
                                               landmark.independent >= kIndependentOfBare);
-    log_plane(id, landmark, stays ? "kept" : "refused");
+    log_plane(map, id, stays ? "kept" : "refused");
     if (!stays) map.erase_plane(id);
   });
 }

@@ -149,7 +149,7 @@ TEST_F(MapPlanesOfPictures, PlanesAreBoundOnlyWhereTheWorldIsManhattan) {
 
 // 18 degrees from square: too much for geometry alone, as drift may have turned them.
 TEST_F(MapPlanesOfPictures, LabelsBindWhatDriftHasTurned) {
-  const auto ramp = rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, 0.4, 1.2});
+  const auto ramp = rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, -0.4, 1.2});
   auto all = grid_on(wall_corners(), 6);
   const auto on_ramp = grid_on(ramp, 6);
   all.insert(all.end(), on_ramp.begin(), on_ramp.end());
@@ -217,7 +217,7 @@ TEST_F(MapPlanesOfPictures, ATableThatIsCalledAWallDeniesNoFloor) {
 
 // 8 degrees from square: what one picture shows is so, what none shows together may have drifted.
 TEST_F(MapPlanesOfPictures, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrift) {
-  const auto side = rectangle({0.8, -1, 2.6}, {0, 1.4, 0}, {0.17, 0, 1.2});
+  const auto side = rectangle({-1.2, -1, 2.6}, {0, 1.4, 0}, {0.17, 0, 1.2});
   auto all = grid_on(wall_corners(), 6);
   const auto on_side = grid_on(side, 6);
   all.insert(all.end(), on_side.begin(), on_side.end());
@@ -360,6 +360,18 @@ TEST_F(MapPlanesOfPictures, WallsThatLeanStayOutOfTheMap) {
     EXPECT_THAT(planes_of(map), SizeIs(before)) << label << ", " << manhattan;
     settle_planes(map, options);
     EXPECT_THAT(planes_of(map), SizeIs(finished)) << label << ", " << manhattan;
+  }
+}
+
+// The camera walks from 0 to 2.1.
+TEST_F(MapPlanesOfPictures, NoPictureShowsASurfaceEdgeOn) {
+  for (const double aside : {1.0, -1.5}) {
+    const auto along = rectangle({aside, -0.5, 2.5}, {0, 1, 0}, {0, 0, 2});
+    points = grid_on(along, 6);
+    map = map_of(points, few_poses(8));
+    for (const KeyframeId id : keyframes_of(map)) show(id, {along});
+    remove_unconfirmed_planes(map, options);
+    EXPECT_THAT(planes_of(map), SizeIs(aside < 0 ? 1 : 0)) << aside;
   }
 }
 
