@@ -63,7 +63,7 @@ void unroll(Frame& frame, const Pinhole& pinhole, std::span<const double> depths
     frame.features.keypoints[i].x = pixel.x();
     frame.features.keypoints[i].y = pixel.y();
   }
-  frame.grid.build(frame.features.keypoints);
+  frame.grid.build(std::span(frame.features.keypoints).first(frame.corners()));
   if (readout == 0) frame.sighted = std::vector<Eigen::Vector2f>();  // also frees its memory
 }
 
@@ -109,11 +109,13 @@ Eigen::Vector2d Undistorter::to_picture(const Eigen::Vector2d& pixel) const {
   return camera_.project(camera_.pinhole().unproject(pixel));
 }
 
+std::uint8_t Undistorter::row_of(double y) const {
+  return static_cast<std::uint8_t>(std::clamp((y + 0.5) / height_ * 256, 0.0, 255.0));
+}
+
 void Undistorter::apply(Features& features, std::vector<std::uint8_t>* rows) const {
   const auto note_row = [&](const Keypoint& kp) {
-    if (rows == nullptr) return;
-    const float part = (kp.y + 0.5F) / static_cast<float>(height_) * 256;
-    rows->push_back(static_cast<std::uint8_t>(std::clamp(part, 0.0F, 255.0F)));
+    if (rows != nullptr) rows->push_back(row_of(kp.y));
   };
   if (rows != nullptr) {
     rows->clear();

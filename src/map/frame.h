@@ -74,8 +74,11 @@ struct Frame {
   std::vector<Eigen::Vector2f> sighted;  ///< where rows saw the keypoints; empty: where they are
   double readout = 0;                    ///< seconds from the first row to the last, as assumed
   Vector6d velocity = Vector6d::Zero();  ///< tangent vector of the camera's motion a second
+  std::size_t added = 0;  ///< keypoints, the last ones: no corner was found there (see `add`)
 
   std::size_t size() const { return features.size(); }
+  /// So many keypoints, the first ones, are corners that were found in the picture.
+  std::size_t corners() const { return size() - added; }
   Eigen::Vector2d pixel(std::size_t i) const {
     return {features.keypoints[i].x, features.keypoints[i].y};
   }
@@ -92,6 +95,16 @@ struct Frame {
     features.keypoints[i].x += static_cast<float>(by.x());
     features.keypoints[i].y += static_cast<float>(by.y());
     if (!sighted.empty()) sighted[i] += by.cast<float>();
+  }
+  /// Adds a keypoint where no corner was found. `row` and `seen_at`: as in rows and sighted. The
+  /// grid does not know it: searches are for corners.
+  void add(const Keypoint& keypoint, const Descriptor& descriptor, std::uint8_t row,
+           const Eigen::Vector2d& seen_at) {
+    features.keypoints.push_back(keypoint);
+    features.descriptors.push_back(descriptor);
+    if (!rows.empty()) rows.push_back(row);
+    if (!sighted.empty()) sighted.push_back(seen_at.cast<float>());
+    ++added;
   }
   /// Calls visit(index) for the keypoints in a window; see KeypointGrid::for_each.
   template <class Visit>
@@ -128,6 +141,8 @@ class Undistorter {
   /// and where one of the ideal pinhole camera is in the picture.
   Eigen::Vector2f to_pinhole(const Eigen::Vector2f& pixel) const;
   Eigen::Vector2d to_picture(const Eigen::Vector2d& pixel) const;
+  /// Of a pixel of the picture, in 256ths of all rows (see Frame::rows).
+  std::uint8_t row_of(double y) const;
 
  private:
   Camera camera_;

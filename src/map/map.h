@@ -153,6 +153,10 @@ class Map {
   /// out.
   std::vector<Eigen::Vector3d> measured_points_at(
       const Keyframe& keyframe, const std::vector<std::uint32_t>& keypoints) const;
+  /// Does the keyframe see it by a corner (see Frame::corners)?
+  bool is_corner(const Observation& o) const {
+    return o.keypoint < keyframes_[o.keyframe].frame->corners();
+  }
   /// The keypoint by which a keyframe sees a point, or -1.
   int keypoint_of(PointId point, KeyframeId keyframe) const;
   /// Recomputes normal and base distance, or the descriptor, from the observations.

@@ -21,7 +21,8 @@ PlaneObservation observation_of(KeyframeId keyframe, const SeenPlane& seen) {
 template <class VotesOf>
 void count_votes(const Keyframe& keyframe, const PlaneObservation& o, VotesOf&& votes_of) {
   if (o.keypoints.empty()) return;  // it stands for one that is gone
-  std::vector<int MaskVotes::*> where(keyframe.points.size(), &MaskVotes::outside);
+  // A detector was asked for corners: what it would say of what was added, it never said.
+  std::vector<int MaskVotes::*> where(keyframe.frame->corners(), &MaskVotes::outside);
   for (const std::uint32_t i : o.keypoints) where[i] = &MaskVotes::rim;
   for (const std::uint32_t i : o.inner) where[i] = &MaskVotes::inside;
   for (std::size_t i = 0; i < where.size(); ++i) {

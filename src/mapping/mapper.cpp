@@ -9,6 +9,7 @@
 #include "cairn/features/retrieval.h"
 #include "cairn/map/stopwatch.h"
 #include "cairn/mapping/keyframe_motion.h"
+#include "cairn/mapping/missed_points.h"
 #include "cairn/mapping/point_alignment.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
@@ -86,8 +87,10 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   recent_.insert(recent_.end(), created.begin(), created.end());
   const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
   align_points(map_, current_);
-  spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused", keyframe.sequence,
-                keyframe.timestamp(), map_.tracked_points(current_, 1), created.size(), fused);
+  const int missed = find_missed_points(map_, current_);
+  spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused, {} missed", keyframe.sequence,
+                keyframe.timestamp(), map_.tracked_points(current_, 1), created.size(), fused,
+                missed);
   publish(current_);
   return current_;
 }
@@ -118,6 +121,7 @@ void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
   const Timed timed(times_.planes);
   Keyframe& looked_at = map_.keyframes()[keyframe];
   looked_at.depth = seen.depth;
+  looked_at.depth.resize(looked_at.points.size());  // of what was added since nothing is known
   looked_at.depth_range = seen.range;
   const PictureScale picture = align_picture(map_, keyframe, scale_.contrast());
   if (picture.usable) scale_.add(looked_at.timestamp(), picture, seen.sigma_scale);
@@ -257,20 +261,23 @@ void Mapper::cull_recent_points() {
   });
 }
 
-// A keyframe goes when nearly all that it sees is seen by three others as sharply as by it.
+// A keyframe goes when nearly all that it sees is seen by three others as sharply as by it. Corners
+// count, and not what they missed: the more often points are seen, the surer is each keyframe, but
+// that is no reason to have fewer of them.
 void Mapper::cull_keyframes() {
   for (const auto& [id, shared] : map_.covisible(current_, 15)) {
     if (id == map_.first() || id == current_) continue;
     const Keyframe& keyframe = map_.keyframes()[id];
     int seen = 0, redundant = 0;
-    for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
+    for (std::uint32_t i = 0; i < keyframe.frame->corners(); ++i) {
       if (!keyframe.points[i].valid()) continue;
       ++seen;
       const int octave = keyframe.frame->octave(i);
       int others = 0;
       for (const Observation& o : map_.points()[keyframe.points[i]].observations) {
         if (o.keyframe == id) continue;
-        others += map_.keyframes()[o.keyframe].frame->octave(o.keypoint) <= octave + 1;
+        others += map_.is_corner(o) &&
+                  map_.keyframes()[o.keyframe].frame->octave(o.keypoint) <= octave + 1;
         if (others >= 3) break;
       }
       redundant += others >= 3;

@@ -314,7 +314,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
     }
     if (poor) assume_points_on(map, id, planes[i], plane, created);
   }
-  for (std::uint32_t i = 0; poor && i < keyframe.points.size(); ++i) {
+  for (std::uint32_t i = 0; poor && i < keyframe.frame->corners(); ++i) {
     if (keyframe.points[i].valid() || !(seen.depth[i] > 0)) continue;
     created.push_back(assume_point(
         map, id, i, scale.here * stretched_depth(seen.depth[i], seen.range, map.depth_contrast)));

@@ -23,8 +23,9 @@ constexpr double kFirstWidth = 5;
 std::vector<PointId> points_seen_by(const Map& map, const std::vector<KeyframeId>& keyframes) {
   std::vector<PointId> points;
   for (const KeyframeId id : keyframes) {
-    for (const PointId p : map.keyframes()[id].points) {
-      if (p.valid()) points.push_back(p);
+    const Keyframe& keyframe = map.keyframes()[id];
+    for (std::size_t i = 0; i < keyframe.frame->corners(); ++i) {
+      if (keyframe.points[i].valid()) points.push_back(keyframe.points[i]);
     }
   }
   std::sort(points.begin(), points.end());
@@ -38,6 +39,7 @@ std::vector<KeyframeId> holders(const Map& map, const std::vector<KeyframeId>& f
   std::vector<std::pair<int, KeyframeId>> counts;
   for (const PointId p : points) {
     for (const Observation& o : map.points()[p].observations) {
+      if (!map.is_corner(o)) continue;
       if (o.keyframe.slot >= counts.size()) counts.resize(o.keyframe.slot + 1);
       ++counts[o.keyframe.slot].first;
       counts[o.keyframe.slot].second = o.keyframe;

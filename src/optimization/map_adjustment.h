@@ -30,8 +30,9 @@ struct AdjustmentSummary {
 
 /// Adjusts the newest keyframes around `centre`, those that share most points with it, and all
 /// points they see; keyframes outside that see the same points are held. Observations beyond the
-/// gate of their χ² are erased from the map afterwards. Stops early when `abort` becomes true; the
-/// map is then as good as the last accepted step.
+/// gate of their χ² are erased from the map afterwards. What was added to corners takes no part:
+/// it would double the time, and what it is good for, drift, shows in the whole map only. Stops
+/// early when `abort` becomes true; the map is then as good as the last accepted step.
 AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
                                  const std::atomic<bool>* abort);
 

@@ -258,6 +258,7 @@ void MapProblem::collect() {
       const int keyframe =
           o.keyframe.slot < index_of_slot_.size() ? index_of_slot_[o.keyframe.slot] : -1;
       if (keyframe < 0) continue;
+      if (!full_ && !map_.is_corner(o)) continue;
       observations_.push_back({static_cast<std::uint32_t>(keyframe), static_cast<std::uint32_t>(i),
                                o.keypoint, o.aligned()});
     }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cairn/optimization/odometry_blocks.h"
 #include "map/links.h"
 #include "map/point_world.h"
@@ -323,6 +325,37 @@ TEST(LocalAdjustment, ErasesObservationsThatAreWrong) {
   int left = 0;
   for (const PointId p : wrong) left += map.points().contains(p) && map.keypoint_of(p, newest) >= 0;
   EXPECT_LE(left, static_cast<int>(wrong.size()) / 10);
+  EXPECT_EQ(broken_links(map), "");
+}
+
+TEST(LocalAdjustment, LeavesWhatWasAddedToCornersToTheFullOne) {
+  PointWorld world(35, {.noise = 0.2});
+  Map map = testing::true_map(world, walk(6, 0.2)), plain = map;
+  Keyframe& newest = map.keyframes()[map.newest()];
+  auto frame = std::make_shared<Frame>(*newest.frame);
+  std::vector<PointId> strangers;  // points that the newest does not see
+  map.points().for_each([&](PointId id, const MapPoint&) {
+    if (map.keypoint_of(id, map.newest()) < 0) strangers.push_back(id);
+  });
+  ASSERT_GT(strangers.size(), 20u);
+  for (const PointId p : strangers) {
+    frame->add({}, {}, 0, Eigen::Vector2d::Zero());  // in a corner of the picture: all wrong
+    newest.points.emplace_back();
+    map.add_observation(p, map.newest(), static_cast<std::uint32_t>(frame->size() - 1));
+  }
+  newest.frame = frame;
+  const auto left = [&] {
+    return std::count_if(strangers.begin(), strangers.end(), [&](PointId p) {
+      return map.points().contains(p) && map.keypoint_of(p, map.newest()) >= 0;
+    });
+  };
+  ASSERT_TRUE(adjust_locally(map, map.newest(), {}, nullptr).usable);
+  ASSERT_TRUE(adjust_locally(plain, plain.newest(), {}, nullptr).usable);
+  EXPECT_EQ(left(), std::ssize(strangers));
+  const SE3& as_if_they_were_not = plain.keyframes()[plain.newest()].T_wc;
+  EXPECT_LT((newest.T_wc.matrix() - as_if_they_were_not.matrix()).norm(), 1e-6);
+  ASSERT_TRUE(adjust_fully(map, {}, nullptr).usable);
+  EXPECT_LE(left(), std::ssize(strangers) / 10);
   EXPECT_EQ(broken_links(map), "");
 }
 
