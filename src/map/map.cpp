@@ -187,12 +187,12 @@ void Map::update_descriptor(PointId id) {
   MapPoint& point = points_[id];
   // The last dozen observations are enough to find a typical one, and bound the cost.
   constexpr std::size_t kConsidered = 12;
-  const std::size_t n = std::min(point.observations.size(), kConsidered);
-  const std::size_t begin = point.observations.size() - n;
   std::array<const Descriptor*, kConsidered> descriptors{};
-  for (std::size_t i = 0; i < n; ++i) {
-    const Observation& o = point.observations[begin + i];
-    descriptors[i] = &keyframes_[o.keyframe].frame->features.descriptors[o.keypoint];
+  std::size_t n = 0;
+  for (std::size_t i = point.observations.size(); i > 0 && n < kConsidered; --i) {
+    const Observation& o = point.observations[i - 1];
+    if (!is_corner(o)) continue;  // what was added has no descriptor of its own
+    descriptors[n++] = &keyframes_[o.keyframe].frame->features.descriptors[o.keypoint];
   }
   int best_median = 257;
   for (std::size_t i = 0; i < n; ++i) {

@@ -16,8 +16,8 @@ namespace cairn::testing {
 class PaintedMap {
  public:
   PaintedMap() : map(View(wall.camera(), 4, 1.2, 1)) {
-    for (double x = -0.6; x < 0.65; x += 0.2) {
-      for (double y = -0.4; y < 0.45; y += 0.2) points_.emplace_back(x, y, PaintedWall::kZ);
+    for (int x = -3; x <= 3; ++x) {
+      for (int y = -2; y <= 2; ++y) points_.emplace_back(0.2 * x, 0.2 * y, PaintedWall::kZ);
     }
   }
 
