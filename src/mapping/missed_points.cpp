@@ -46,7 +46,7 @@ int find_missed_points(Map& map, KeyframeId id) {
   const Undistorter& lens = *keyframe.picture->lens;
   const SE3 T_cw = keyframe.T_wc.inverse();
   auto frame = std::make_shared<Frame>(*keyframe.frame);  // trackers may look at the other
-  int count = 0;
+  std::vector<PointId> seen;
   for (const PointId p : points_around(map, id)) {
     const MapPoint& point = map.points()[p];
     if (!point.patch || point.assumed || point.observations.size() < kSure) continue;
@@ -79,13 +79,11 @@ int find_missed_points(Map& map, KeyframeId id) {
       keyframe.points.emplace_back();
     }
     map.add_observation(p, id, keypoint, PatchState::kFound);
-    ++count;
+    seen.push_back(p);
   }
   keyframe.frame = std::move(frame);
-  for (const PointId p : keyframe.points) {
-    if (p.valid()) map.update_geometry(p);
-  }
-  return count;
+  for (const PointId p : seen) map.update_geometry(p);
+  return static_cast<int>(seen.size());
 }
 
 }  // namespace cairn
