@@ -1,10 +1,10 @@
 #include "cairn/mapping/missed_points.h"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "cairn/map/seen_points.h"
 #include "cairn/map/visibility.h"
 
 namespace cairn {
@@ -17,16 +17,11 @@ constexpr double kReach = 1.5;           // pixels that it may be from there
 constexpr double kOneCorner = 1.5;       // pixels between keypoints of one corner
 
 std::vector<PointId> points_around(const Map& map, KeyframeId id) {
-  std::vector<PointId> points;
-  const auto neighbours = map.covisible(id, kShared);
-  for (std::size_t i = 0; i < std::min(neighbours.size(), kNeighbours); ++i) {
-    for (const PointId p : map.keyframes()[neighbours[i].first].points) {
-      if (p.valid()) points.push_back(p);
-    }
+  std::vector<KeyframeId> around;
+  for (const auto& [neighbour, shared] : map.covisible(id, kShared)) {
+    if (around.size() < kNeighbours) around.push_back(neighbour);
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
+  return points_seen_from(map, around);
 }
 
 // Pixels by which an instant shutter would have seen elsewhere what a row saw at `pixel`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cairn/map/seen_points.h"
 #include "cairn/map/visibility.h"
 
 namespace cairn {
@@ -61,6 +62,13 @@ bool merge_if_one(Map& map, PointId from, PointId into) {
   return true;
 }
 
+// In order of its keypoints.
+std::vector<PointId> points_of(const Map& map, KeyframeId id) {
+  std::vector<PointId> points = map.keyframes()[id].points;
+  std::erase_if(points, [](PointId p) { return !p.valid(); });
+  return points;
+}
+
 }  // namespace
 
 int fuse_into(Map& map, KeyframeId id, std::span<const PointId> points, double radius) {
@@ -104,21 +112,9 @@ int fuse_neighbourhood(Map& map, KeyframeId id, int neighbours) {
     }
   }
   int fused = 0;
-  auto points_of = [&](KeyframeId k) {
-    std::vector<PointId> points = map.keyframes()[k].points;
-    std::erase_if(points, [](PointId p) { return !p.valid(); });
-    return points;
-  };
-  for (const KeyframeId target : targets) fused += fuse_into(map, target, points_of(id), 3);
-  std::vector<PointId> around;
-  for (const KeyframeId target : targets) {
-    const auto points = points_of(target);
-    around.insert(around.end(), points.begin(), points.end());
-  }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  fused += fuse_into(map, id, around, 3);
-  for (const PointId p : points_of(id)) {
+  for (const KeyframeId target : targets) fused += fuse_into(map, target, points_of(map, id), 3);
+  fused += fuse_into(map, id, points_seen_from(map, targets), 3);
+  for (const PointId p : points_of(map, id)) {
     map.update_descriptor(p);
     map.update_geometry(p);
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "cairn/map/seen_points.h"
 #include "cairn/optimization/map_problem.h"
 #include "cairn/optimization/odometry_blocks.h"
 
@@ -19,19 +20,6 @@ constexpr double kLensShare = 0.02;
 
 // What drifted is far from where its points would hold it: the first fit has a wider core.
 constexpr double kFirstWidth = 5;
-
-std::vector<PointId> points_seen_by(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::vector<PointId> points;
-  for (const KeyframeId id : keyframes) {
-    const Keyframe& keyframe = map.keyframes()[id];
-    for (std::size_t i = 0; i < keyframe.frame->corners(); ++i) {
-      if (keyframe.points[i].valid()) points.push_back(keyframe.points[i]);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
 
 // Keyframes outside of `free` that see the points, those that see most first.
 std::vector<KeyframeId> holders(const Map& map, const std::vector<KeyframeId>& free,
@@ -92,7 +80,7 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
     free.push_back(id);
   }
   std::erase_if(free, [&](KeyframeId id) { return id == map.first() && id != centre; });
-  std::vector<PointId> points = points_seen_by(map, free);
+  std::vector<PointId> points = points_seen_from(map, free, SeenBy::kCorners);
   std::vector<KeyframeId> fixed = holders(map, free, points, options.fixed);
   // The scale of a monocular map hangs on two poses: hold the two oldest where nothing else does.
   while (fixed.size() < 2 && free.size() > 2) {
