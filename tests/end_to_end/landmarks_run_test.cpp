@@ -29,7 +29,7 @@ class LandmarksRun : public testing::Test {
     folder_ = std::make_unique<TemporaryFolder>();
     const Ran ran =
         run_cairn("synth " + sequence() +
-                  " --scene desk --sensor rgbd --frames 90 --samples 1 --no-blur --no-progress");
+                  " --scene desk --sensor rgbd --frames 60 --samples 1 --no-blur --no-progress");
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
   static void TearDownTestSuite() { folder_.reset(); }
