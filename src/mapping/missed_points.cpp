@@ -19,7 +19,8 @@ constexpr double kOneCorner = 1.5;       // pixels between keypoints of one corn
 std::vector<PointId> points_around(const Map& map, KeyframeId id) {
   std::vector<KeyframeId> around;
   for (const auto& [neighbour, shared] : map.covisible(id, kShared)) {
-    if (around.size() < kNeighbours) around.push_back(neighbour);
+    if (around.size() == kNeighbours) break;
+    around.push_back(neighbour);
   }
   return points_seen_from(map, around);
 }

@@ -61,7 +61,7 @@ TEST_F(LandmarksRun, PutsTheTableIntoTheMapAndTheMapIntoMetres) {
   const nlohmann::json scale = json("a/summary.json").at("scale");
   EXPECT_EQ(scale.at("how"), "predicted depth");
   EXPECT_GT(scale.at("sigma").get<double>(), 0.01);
-  // Three seconds have one or two independent pictures: twice the sigma of their scale.
+  // Two seconds have one or two independent pictures: twice the sigma of their scale.
   const Ran evaluated =
       run_cairn("evaluate " + path("a") + " --json --world " + sequence() + "/world.json");
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.output;

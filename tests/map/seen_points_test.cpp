@@ -41,8 +41,7 @@ TEST_F(SeenPoints, AreAllThatOneOfTheKeyframesSeesEachOnce) {
 
 TEST_F(SeenPoints, AreWithoutWhatWasAddedWhereOnlyCornersCount) {
   Keyframe& newest = map.keyframes()[map.newest()];
-  const auto unseen = std::ranges::find_if(newest.points, [&](PointId p) { return p.valid(); });
-  const PointId point = *unseen;
+  const PointId point = *std::ranges::find_if(newest.points, [](PointId p) { return p.valid(); });
   map.erase_observation(point, map.newest());
   ASSERT_TRUE(map.points().contains(point));
   auto frame = std::make_shared<Frame>(*newest.frame);
@@ -51,8 +50,8 @@ TEST_F(SeenPoints, AreWithoutWhatWasAddedWhereOnlyCornersCount) {
   map.add_observation(point, map.newest(), static_cast<std::uint32_t>(frame->size() - 1));
   newest.frame = frame;
   const std::vector<KeyframeId> one = {map.newest()};
-  auto seen = points_seen_from(map, one);
-  auto by_corners = points_seen_from(map, one, SeenBy::kCorners);
+  const auto seen = points_seen_from(map, one);
+  const auto by_corners = points_seen_from(map, one, SeenBy::kCorners);
   EXPECT_EQ(seen.size(), by_corners.size() + 1);
   EXPECT_TRUE(std::ranges::binary_search(seen, point));
   EXPECT_FALSE(std::ranges::binary_search(by_corners, point));
