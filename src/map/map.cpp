@@ -79,7 +79,7 @@ double stretched_depth(double depth, const DepthRange& range, double contrast) {
 
 void Map::erase_keyframe(KeyframeId id) {
   if (!planes_.empty() || !objects_.empty()) {
-    const auto neighbours = covisible(id, 1);
+    const auto neighbours = covisible(id, 1, 1);
     const KeyframeId heir = neighbours.empty() ? KeyframeId{} : neighbours.front().first;
     move_planes(id, heir);
     move_objects(id, heir);
@@ -206,7 +206,8 @@ void Map::update_descriptor(PointId id) {
   }
 }
 
-std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_shared) const {
+std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_shared,
+                                                       std::size_t most) const {
   std::vector<std::pair<KeyframeId, int>> counts;  // by slot
   for (const PointId p : keyframes_[id].points) {
     if (!p.valid()) continue;
@@ -224,6 +225,7 @@ std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_sh
     if (a.second != b.second) return a.second > b.second;
     return keyframes_[a.first].sequence < keyframes_[b.first].sequence;
   });
+  if (result.size() > most) result.resize(most);
   return result;
 }
 

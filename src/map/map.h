@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -196,9 +197,11 @@ class Map {
   SE3 camera_of(const ObjectObservation& o) const;
   void set_object_in_world(ObjectId id, const Ellipsoid& ellipsoid);
 
-  /// Keyframes that share at least `min_shared` points with this one, the most first (then in order
-  /// of making).
-  std::vector<std::pair<KeyframeId, int>> covisible(KeyframeId id, int min_shared) const;
+  /// Keyframes that share at least `min_shared` points with this one, those that share most first
+  /// (then in order of making), and no more than `most`.
+  std::vector<std::pair<KeyframeId, int>> covisible(
+      KeyframeId id, int min_shared,
+      std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// Quantile (0.5: median) of the depths of the points that a keyframe sees; 0 where it sees none.
   double depth_quantile(KeyframeId id, double quantile) const;
   /// Number of points of a keyframe that at least `min_observations` keyframes see.

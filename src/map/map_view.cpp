@@ -24,10 +24,9 @@ std::vector<KeyframeId> local_keyframes(const Map& map, KeyframeId reference) {
   }
   const std::size_t direct = local.size();
   for (std::size_t i = 1; i < direct; ++i) {
-    const auto neighbours = map.covisible(local[i], kMinSharedPoints);
-    const std::size_t n = std::min<std::size_t>(neighbours.size(), kNeighboursOfNeighbour);
-    for (std::size_t k = 0; k < n; ++k) {
-      if (take(neighbours[k].first)) local.push_back(neighbours[k].first);
+    for (const auto& [id, shared] :
+         map.covisible(local[i], kMinSharedPoints, kNeighboursOfNeighbour)) {
+      if (take(id)) local.push_back(id);
     }
   }
   return local;

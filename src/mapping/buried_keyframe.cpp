@@ -6,7 +6,7 @@ BuriedKeyframe bury_keyframe(Map& map, KeyframeId id) {
   const Keyframe& keyframe = map.keyframes()[id];
   BuriedKeyframe buried;
   buried.id = id;
-  buried.parent = map.covisible(id, 1).front().first;
+  buried.parent = map.covisible(id, 1, 1).front().first;
   buried.T_pk = map.keyframes()[buried.parent].T_wc.inverse() * keyframe.T_wc;
   buried.timestamp = keyframe.timestamp();
   std::vector<char> aligned(keyframe.points.size());

@@ -18,8 +18,7 @@ constexpr double kOneCorner = 1.5;       // pixels between keypoints of one corn
 
 std::vector<PointId> points_around(const Map& map, KeyframeId id) {
   std::vector<KeyframeId> around;
-  for (const auto& [neighbour, shared] : map.covisible(id, kShared)) {
-    if (around.size() == kNeighbours) break;
+  for (const auto& [neighbour, shared] : map.covisible(id, kShared, kNeighbours)) {
     around.push_back(neighbour);
   }
   return points_seen_from(map, around);

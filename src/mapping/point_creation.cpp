@@ -134,10 +134,7 @@ class PairMatcher {
 std::vector<PointId> create_points(Map& map, KeyframeId keyframe,
                                    const PointCreationOptions& options) {
   std::vector<PointId> created;
-  const auto neighbours = map.covisible(keyframe, 10);
-  const std::size_t n = std::min<std::size_t>(neighbours.size(), options.neighbours);
-  for (std::size_t k = 0; k < n; ++k) {
-    const KeyframeId other = neighbours[k].first;
+  for (const auto& [other, shared] : map.covisible(keyframe, 10, options.neighbours)) {
     const double baseline =
         (map.keyframes()[keyframe].T_wc.translation() - map.keyframes()[other].T_wc.translation())
             .norm();

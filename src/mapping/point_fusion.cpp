@@ -102,14 +102,10 @@ int fuse_neighbourhood(Map& map, KeyframeId id, int neighbours) {
     if (k != id && std::find(targets.begin(), targets.end(), k) == targets.end())
       targets.push_back(k);
   };
-  const auto direct = map.covisible(id, 10);
-  const std::size_t n = std::min<std::size_t>(direct.size(), neighbours);
-  for (std::size_t i = 0; i < n; ++i) add(direct[i].first);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto second = map.covisible(direct[i].first, 15);
-    for (std::size_t k = 0; k < std::min<std::size_t>(second.size(), kSecondNeighbours); ++k) {
-      add(second[k].first);
-    }
+  const auto direct = map.covisible(id, 10, neighbours);
+  for (const auto& [neighbour, shared] : direct) add(neighbour);
+  for (const auto& [neighbour, shared] : direct) {
+    for (const auto& [second, s] : map.covisible(neighbour, 15, kSecondNeighbours)) add(second);
   }
   int fused = 0;
   for (const KeyframeId target : targets) fused += fuse_into(map, target, points_of(map, id), 3);

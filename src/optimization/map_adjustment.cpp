@@ -18,8 +18,10 @@ constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
 // exact it explains 0.1 to 1.3 %, by the noise of tracks; where they are not, 3 to 13 %.
 constexpr double kLensShare = 0.02;
 
-// What drifted is far from where its points would hold it: the first fit has a wider core.
-constexpr double kFirstWidth = 5;
+// Widths of the cores of points' errors in the two fits of the full adjustment. What drifted is far
+// from where its points would hold it, so the first is wide; the second trusts those most that
+// agree best, as patches that straddle two things, or are smeared, err alike.
+constexpr double kFirstWidth = 5, kLastWidth = 0.5;
 
 // Keyframes outside of `free` that see the points, those that see most first.
 std::vector<KeyframeId> holders(const Map& map, const std::vector<KeyframeId>& free,
@@ -75,8 +77,7 @@ std::string AdjustmentSummary::to_string() const {
 AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
                                  const std::atomic<bool>* abort) {
   std::vector<KeyframeId> free = {centre};
-  for (const auto& [id, shared] : map.covisible(centre, 15)) {
-    if (static_cast<int>(free.size()) >= options.window) break;
+  for (const auto& [id, shared] : map.covisible(centre, 15, options.window - 1)) {
     free.push_back(id);
   }
   std::erase_if(free, [&](KeyframeId id) { return id == map.first() && id != centre; });
@@ -106,7 +107,8 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
   if (path == nullptr) path = &now.emplace(map);
   double initial_rms = 0;
   for (int round = 0; round < 2; ++round) {
-    const auto problem = whole_map(map, options, round == 0 ? kFirstWidth : 1, false, *path);
+    const auto problem =
+        whole_map(map, options, round == 0 ? kFirstWidth : kLastWidth, false, *path);
     if (problem == nullptr) return summary;
     const int outliers = summary.outliers;
     summary = problem->solve(options.full_iterations, 1e-7, abort);
@@ -125,7 +127,7 @@ AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options,
                               const std::atomic<bool>* abort, OdometryBlocks* path) {
   std::optional<OdometryBlocks> now;
   if (path == nullptr) path = &now.emplace(map);
-  const auto problem = whole_map(map, options, 1, true, *path);
+  const auto problem = whole_map(map, options, kLastWidth, true, *path);
   if (problem == nullptr) return {};
   AdjustmentSummary summary = problem->solve(options.full_iterations, 1e-7, abort);
   const double left = summary.final_rms / summary.initial_rms;

@@ -154,6 +154,7 @@ TEST(Map, CovisibleKeyframesComeByWhatTheyShareThenByAge) {
   using Shared = std::vector<std::pair<KeyframeId, int>>;
   EXPECT_EQ(map.covisible(centre, 2), (Shared{{most, 6}, {old, 3}, {young, 3}}));
   EXPECT_EQ(map.covisible(centre, 1).back(), std::pair(hardly, 1));
+  EXPECT_EQ(map.covisible(centre, 1, 2), (Shared{{most, 6}, {old, 3}}));
 }
 
 TEST(Map, GeometryOfAPointIsTheMeanOfItsViews) {
