@@ -2,35 +2,13 @@
 
 #include <algorithm>
 
+#include "cairn/map/neighbourhood.h"
+
 namespace cairn {
 namespace {
 
-constexpr int kMinSharedPoints = 5;
-constexpr int kNeighboursOfNeighbour = 5;
-
-// The reference, its covisible keyframes, then the best neighbours of those; each once.
-std::vector<KeyframeId> local_keyframes(const Map& map, KeyframeId reference) {
-  std::vector<KeyframeId> local = {reference};
-  std::vector<bool> taken;
-  auto take = [&](KeyframeId id) {
-    if (id.slot >= taken.size()) taken.resize(id.slot + 1, false);
-    const bool fresh = !taken[id.slot];
-    taken[id.slot] = true;
-    return fresh;
-  };
-  take(reference);
-  for (const auto& [id, shared] : map.covisible(reference, kMinSharedPoints)) {
-    if (take(id)) local.push_back(id);
-  }
-  const std::size_t direct = local.size();
-  for (std::size_t i = 1; i < direct; ++i) {
-    for (const auto& [id, shared] :
-         map.covisible(local[i], kMinSharedPoints, kNeighboursOfNeighbour)) {
-      if (take(id)) local.push_back(id);
-    }
-  }
-  return local;
-}
+constexpr Neighbours kDirect = {.min_shared = 5};
+constexpr Neighbours kOfNeighbours = {.min_shared = 5, .most = 5};
 
 }  // namespace
 
@@ -64,7 +42,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->units_a_metre = map.units_a_metre;
 
   std::vector<PointId> ids;
-  for (const KeyframeId id : local_keyframes(map, reference)) {
+  for (const KeyframeId id : neighbourhood(map, reference, kDirect, kOfNeighbours)) {
     const Keyframe& keyframe = map.keyframes()[id];
     view->keyframes.push_back({id, keyframe.T_wc});
     if (static_cast<int>(ids.size()) >= max_points) continue;

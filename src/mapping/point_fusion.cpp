@@ -1,7 +1,9 @@
 #include "cairn/mapping/point_fusion.h"
 
 #include <algorithm>
+#include <span>
 
+#include "cairn/map/neighbourhood.h"
 #include "cairn/map/seen_points.h"
 #include "cairn/map/visibility.h"
 
@@ -11,7 +13,7 @@ namespace {
 constexpr int kMaxDistance = 50;       // Hamming
 constexpr double kGate = 5.991;        // χ², 2 degrees of freedom, 95 %
 constexpr double kAstray = 4 * kGate;  // of what saw a point, should it be elsewhere
-constexpr int kSecondNeighbours = 5;
+constexpr std::size_t kSecondNeighbours = 5;
 
 // The keypoint of the keyframe that shows the point best, or -1.
 int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, const Visibility& v,
@@ -97,16 +99,9 @@ int fuse_into(Map& map, KeyframeId id, std::span<const PointId> points, double r
 }
 
 int fuse_neighbourhood(Map& map, KeyframeId id, int neighbours) {
-  std::vector<KeyframeId> targets;
-  auto add = [&](KeyframeId k) {
-    if (k != id && std::find(targets.begin(), targets.end(), k) == targets.end())
-      targets.push_back(k);
-  };
-  const auto direct = map.covisible(id, 10, neighbours);
-  for (const auto& [neighbour, shared] : direct) add(neighbour);
-  for (const auto& [neighbour, shared] : direct) {
-    for (const auto& [second, s] : map.covisible(neighbour, 15, kSecondNeighbours)) add(second);
-  }
+  const auto around =
+      neighbourhood(map, id, {10, static_cast<std::size_t>(neighbours)}, {15, kSecondNeighbours});
+  const auto targets = std::span(around).subspan(1);  // but for the keyframe itself
   int fused = 0;
   for (const KeyframeId target : targets) fused += fuse_into(map, target, points_of(map, id), 3);
   fused += fuse_into(map, id, points_seen_from(map, targets), 3);

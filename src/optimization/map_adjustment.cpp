@@ -77,7 +77,7 @@ std::string AdjustmentSummary::to_string() const {
 AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
                                  const std::atomic<bool>* abort) {
   std::vector<KeyframeId> free = {centre};
-  for (const auto& [id, shared] : map.covisible(centre, 15, options.window - 1)) {
+  for (const auto& [id, shared] : map.covisible(centre, 15, std::max(options.window, 1) - 1)) {
     free.push_back(id);
   }
   std::erase_if(free, [&](KeyframeId id) { return id == map.first() && id != centre; });

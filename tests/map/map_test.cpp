@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "map/links.h"
+#include "map/plain_frame.h"
 #include "map/point_world.h"
 
 namespace cairn {
@@ -10,22 +11,12 @@ namespace {
 
 using testing::along;
 using testing::broken_links;
+using testing::plain_frame;
 using testing::PointWorld;
 using testing::Random;
 using testing::true_map;
 
 const std::vector<SE3> kWalk = {along(0), along(0.3), along(0.6), along(0.9), along(1.2)};
-
-// A frame with `count` keypoints in octave 0 whose descriptors count up.
-std::shared_ptr<Frame> plain_frame(int count) {
-  auto frame = std::make_shared<Frame>();
-  for (int i = 0; i < count; ++i) {
-    frame->features.keypoints.push_back({float(10 * i), 20, 0, 1, 0});
-    frame->features.descriptors.push_back({static_cast<std::uint64_t>(i), 0, 0, 0});
-  }
-  frame->grid.build(frame->features.keypoints);
-  return frame;
-}
 
 PointId any_point(const Map& map, Random& random) {
   std::vector<PointId> ids;
