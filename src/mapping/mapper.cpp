@@ -10,6 +10,7 @@
 #include "cairn/map/stopwatch.h"
 #include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/missed_points.h"
+#include "cairn/mapping/plane_confirmation.h"
 #include "cairn/mapping/point_alignment.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"

@@ -35,13 +35,4 @@ struct DepthScale {
 std::vector<PointId> map_planes(Map& map, KeyframeId keyframe, const KeyframePerception& seen,
                                 const DepthScale& scale, const PlaneMappingOptions& options);
 
-/// At the end: planes that were never confirmed go. Confirmed is what enough pictures show and
-/// enough points carry: what networks alone say of a surface is too rough for a map.
-void remove_unconfirmed_planes(Map& map, const PlaneMappingOptions& options);
-
-/// After the full adjustment: the same anew, as points that were no good are gone and the others
-/// are where they belong; so they may be spread by half as much, and no drift excuses a wall that
-/// leans.
-void settle_planes(Map& map, const PlaneMappingOptions& options);
-
 }  // namespace cairn

@@ -15,7 +15,7 @@ namespace {
 constexpr double kGate = 5.991;  // χ², 2 degrees of freedom, 95 %
 
 // What the correction of a lens has to explain of the cost to be believed. Where calibrations are
-// exact it explains up to 1.3 %, by the noise of tracks; where they are not, 3 to 14 %.
+// exact it explains 0.3 %, by the noise of tracks; where they are not, 3 to 14 %.
 constexpr double kLensShare = 0.02;
 
 // Widths of the cores of points' errors in the two fits of the full adjustment. What drifted is far
