@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <vector>
+
 #include "map/plain_frame.h"
 #include "map/point_world.h"
 
