@@ -16,6 +16,9 @@ constexpr int kFewPoints = 10;  // fewer say little of a plane
 constexpr double kMostPoints = 0.7;     // of one plane on another, that make the two one
 constexpr double kAsGood = 0.7;         // of the points on what is seen, on what is known
 constexpr double kLeastOffset = 0.015;  // share of the distance: surfaces are not flat
+// Share of the distance. No surface is seen from behind: where a camera seems to be farther behind
+// one, drift has brought two together, as opposite walls of a corridor.
+constexpr double kBehind = 0.1;
 
 // How far apart two views of one surface may be, from how sure both are.
 double angle_gate(double sigma_a, double sigma_b, const PlaneAssociationOptions& options) {
@@ -49,6 +52,10 @@ bool touch(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vecto
   return std::any_of(a.begin(), a.end(), [&](const Eigen::Vector3d& corner) {
     return distance_outside(b, normal_b, corner) <= margin;
   });
+}
+
+bool is_behind(const SeenPlane& seen, const KnownPlane& known) {
+  return known.plane.offset() < -kBehind * seen.centroid.norm();
 }
 
 // 1 where the normals or the offsets are as far apart as is allowed.
@@ -88,7 +95,7 @@ class Candidates {
     const KnownPlane* best = nullptr;
     int most = 0;
     for (const KnownPlane& known : known_) {
-      if (!nearly_agree(seen, known, options_)) continue;
+      if (is_behind(seen, known) || !nearly_agree(seen, known, options_)) continue;
       const int count = count_shared(known, points, kTouch * seen.centroid.norm());
       if (count <= most) continue;
       most = count;
@@ -166,7 +173,7 @@ const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPl
   const double margin = kTouch * seen.centroid.norm();
   for (const KnownPlane& plane : known) {
     const double off = disagreement(seen, plane, options);
-    if (off > least) continue;
+    if (off > least || is_behind(seen, plane)) continue;
     const bool together =
         touch(seen.outline, plane.outline, plane.plane.normal(), margin) ||
         touch(plane.outline, convex_outline(seen.plane, seen.outline), seen.plane.normal(), margin);
@@ -181,6 +188,7 @@ bool one_surface(const Map& map, PlaneId a, PlaneId b, double distance,
                  const PlaneAssociationOptions& options) {
   const Plane plane_a = map.plane_in_world(a), plane_b = map.plane_in_world(b);
   if (angle_between(plane_a, plane_b) > options.max_angle_deg * kRadians) return false;
+  if (plane_a.normal().dot(plane_b.normal()) < 0) return false;  // two sides are two surfaces
   const auto outline_a = map.outline_in_world(a), outline_b = map.outline_in_world(b);
   const double margin = kGap * distance;
   if (!touch(outline_a, outline_b, plane_b.normal(), kTouch * distance) &&

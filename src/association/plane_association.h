@@ -36,7 +36,7 @@ std::vector<PlaneDecision> associate_planes(const Map& map, KeyframeId keyframe,
 /// A plane of the map, in the frame of the camera that may see it.
 struct KnownPlane {
   PlaneId id;
-  Plane plane;
+  Plane plane;  ///< positive on the side that pictures show
   std::vector<Eigen::Vector3d> outline;
   double sigma_tilt = 0;  ///< of its normal, radians
 

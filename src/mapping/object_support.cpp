@@ -23,9 +23,7 @@ std::vector<Surface> surfaces(const Map& map) {
   std::vector<Surface> result;
   map.planes().for_each([&](PlaneId id, const PlaneLandmark& landmark) {
     if (!landmark.confirmed || !carries_things(landmark.label())) return;
-    const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
-    result.push_back(
-        {id, landmark.plane.facing_origin().transformed(T_wr), map.outline_in_world(id)});
+    result.push_back({id, map.plane_in_world(id), map.outline_in_world(id)});
   });
   return result;
 }

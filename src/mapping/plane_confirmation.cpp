@@ -98,8 +98,7 @@ bool is_clear(const PlaneLandmark& landmark, const PlaneMappingOptions& options)
 // picture shows a surface edge-on.
 double slant(const Map& map, PlaneId id) {
   const PlaneLandmark& landmark = map.planes()[id];
-  const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
-  const Eigen::Vector3d normal = T_wr.rotation() * landmark.plane.facing_origin().normal();
+  const Eigen::Vector3d normal = map.plane_in_world(id).normal();
   std::vector<double> sines;
   for (const PlaneObservation& o : landmark.observations) {
     const SE3& T_wk = map.keyframes()[o.keyframe].T_wc;

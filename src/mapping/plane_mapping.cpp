@@ -13,6 +13,7 @@ namespace cairn {
 namespace {
 
 constexpr double kMaxStretch = 2.5;  // depth of a point on a plane over that of its centroid
+constexpr double kHalfway = 45;      // degrees, to a surface that stands square to it
 
 int measured_points(const Map& map, const Keyframe& keyframe) {
   return static_cast<int>(
@@ -49,6 +50,14 @@ void assume_points_on(Map& map, KeyframeId id, const SeenPlane& seen, PlaneId pl
     created.push_back(assume_point(map, id, i, *depth));
     map.set_plane_of(created.back(), plane);
   }
+}
+
+// Where points are few, normals are as the detector gives them, and points get their depth from
+// planes: rather the wall that is known than a new one that stands askew.
+PlaneAssociationOptions for_picture(const PlaneAssociationOptions& options, bool poor) {
+  PlaneAssociationOptions result = options;
+  if (poor) result.max_angle_deg = std::max(result.max_angle_deg, kHalfway);
+  return result;
 }
 
 // From where a landmark is seen to its middle.
@@ -97,8 +106,8 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
   }
   const bool poor = measured_points(map, keyframe) < options.few_points;
   std::vector<PointId> created;
-  const std::vector<PlaneDecision> decisions =
-      associate_planes(map, id, planes, options.association);
+  const PlaneAssociationOptions association = for_picture(options.association, poor);
+  const std::vector<PlaneDecision> decisions = associate_planes(map, id, planes, association);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     PlaneId plane = decisions[i].plane;
     if (decisions[i].kind == PlaneDecision::Kind::kUnclear) continue;
@@ -121,7 +130,7 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
         map, id, i, scale.here * stretched_depth(seen.depth[i], seen.range, map.depth_contrast)));
   }
   judge_planes(map, options);
-  fuse_planes(map, options.association);
+  fuse_planes(map, association);
   cull_planes(map, keyframe.timestamp(), options);
   if (options.manhattan) relate_planes(map, options);
   std::erase_if(created, [&](PointId p) { return !map.points().contains(p); });

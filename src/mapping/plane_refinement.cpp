@@ -161,6 +161,17 @@ double fit_to(Map& map, PlaneId id, const std::vector<PointId>& points, double p
   return std::hypot(kMinTiltSigma, sigma);
 }
 
+// Most keyframes that observe the plane are on its positive side.
+void face_viewers(const Map& map, PlaneLandmark& landmark) {
+  const SE3 T_rw = map.keyframes()[landmark.reference].T_wc.inverse();
+  const auto behind = std::count_if(
+      landmark.observations.begin(), landmark.observations.end(), [&](const PlaneObservation& o) {
+        const Eigen::Vector3d camera = T_rw * map.keyframes()[o.keyframe].T_wc.translation();
+        return landmark.plane.signed_distance(camera) < 0;
+      });
+  if (2 * behind > std::ssize(landmark.observations)) landmark.plane = landmark.plane.flipped();
+}
+
 double detection_rate(const Map& map, const PlaneLandmark& landmark) {
   std::map<KeyframeId, int> points_seen;
   for (const PointId p : landmark.points) {
@@ -193,9 +204,7 @@ struct SortedPoints {
 
 SortedPoints sort_points(const Map& map, PlaneId id, const std::vector<PointId>& points,
                          double point_sigma) {
-  const PlaneLandmark& landmark = map.planes()[id];
-  const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
-  const Plane plane = landmark.plane.facing_origin().transformed(T_wr);  // positive: before it
+  const Plane plane = map.plane_in_world(id);  // positive: before it
   SortedPoints result;
   for (const PointId p : points) {
     const PlanePoint point = plane_point(map, p, point_sigma);
@@ -278,6 +287,7 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   } else {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
+  face_viewers(map, landmark);
   const auto [on, before, behind] = sort_points(map, id, seen, point_sigma);
   const double there = double(on.size());
   landmark.judges = there + behind + kOfThingsBefore * before;

@@ -21,8 +21,9 @@ std::vector<PlanePoint> plane_points(const Map& map, const Keyframe& keyframe,
 
 /// The same for a landmark, unless it is confirmed, which the adjustment moves: by all that
 /// pictures said of it, the points in their masks and, if `manhattan`, the confirmed planes that it
-/// seems to be parallel or perpendicular to. Then what is known of it: its points, its outline and
-/// the evidence. `point_sigma`: of points off a plane, as a share of their viewing distance.
+/// seems to be parallel or perpendicular to. Then what is known of it: from which side it is seen,
+/// its points, its outline and the evidence. `point_sigma`: of points off a plane, as a share of
+/// their viewing distance.
 void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan);
 
 }  // namespace cairn

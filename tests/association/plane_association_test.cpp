@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "geometry/planes.h"
 #include "map/flat_map.h"
 
@@ -106,6 +108,15 @@ TEST_F(PlaneAssociation, OfTwoAtThePlaceItIsTheNearerOne) {
   EXPECT_EQ(nearer_to(4.25), other);
 }
 
+// All its keypoints are on the wall, which would have to be seen through.
+TEST_F(PlaneAssociation, ItIsNotThePlaneThatPicturesShowFromTheOtherSide) {
+  SE3& T_wc = map.keyframes()[map.newest()].T_wc;
+  T_wc = SE3(so3_exp(Eigen::Vector3d(0, std::numbers::pi, 0)), {0, 0, 8});
+  const SeenPlane back = seen_from(T_wc, wall_corners());
+  EXPECT_EQ(decide(back).kind, Kind::kNew);
+  EXPECT_EQ(decide(with_keypoints(back, 36)).kind, Kind::kNew);
+}
+
 TEST_F(PlaneAssociation, WhereNothingIsNearItIsNew) {
   const auto corners = rectangle({-0.5, -0.5, 2}, {1, 0, 0}, {0, 1, 0});
   EXPECT_EQ(decide(seen_from(poses[1], corners)).kind, Kind::kNew);
@@ -155,6 +166,16 @@ TEST_F(OneSurface, AreNotParallelShelves) {
   const PlaneId lower = add({-1, 1, 2}, {2, 0, 0}, {0, 0, 1});
   const PlaneId upper = add({-1, 0.5, 2}, {2, 0, 0}, {0, 0, 1});
   EXPECT_FALSE(one(lower, upper));
+}
+
+// The walls of a corridor, should drift bring them together.
+TEST_F(OneSurface, AreNotTwoThatFaceEachOther) {
+  const auto corners = rectangle({-1, -1, 4}, {2, 0, 0}, {0, 2, 0});
+  const SE3 behind(so3_exp(Eigen::Vector3d(0, std::numbers::pi, 0)), {0, 0, 8});
+  const KeyframeId other = map.add_keyframe(testing::frame_at({}, 1), behind);
+  const PlaneId here = map.add_plane(camera, seen_from(SE3(), corners));
+  EXPECT_TRUE(one(here, map.add_plane(camera, seen_from(SE3(), corners))));
+  EXPECT_FALSE(one(here, map.add_plane(other, seen_from(behind, corners))));
 }
 
 TEST_F(OneSurface, AreNotAWallAndTheFloorThatMeet) {

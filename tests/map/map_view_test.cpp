@@ -79,6 +79,17 @@ TEST_F(MapViewTest, SaysWhichPointEachKeypointOfTheReferenceShows) {
   EXPECT_EQ(view->reference_tracked, seen);
 }
 
+// So that frames are compared with all that they can find.
+TEST_F(MapViewTest, CountsPointsThatOnlyTheReferenceHasSeen) {
+  const int before = make_view(map, keyframes[1], 100000, 1)->reference_tracked;
+  const auto& points = map.keyframes()[keyframes[1]].points;
+  const auto free = std::find(points.begin(), points.end(), PointId());
+  ASSERT_NE(free, points.end());
+  const PointId assumed = map.add_point({0, 0, 4});
+  map.add_observation(assumed, keyframes[1], std::uint32_t(free - points.begin()));
+  EXPECT_EQ(make_view(map, keyframes[1], 100000, 2)->reference_tracked, before + 1);
+}
+
 TEST_F(MapViewTest, StopsAtTheMostPointsButKeepsThoseOfTheReference) {
   const int own = map.tracked_points(keyframes[1], 2);
   const auto view = make_view(map, keyframes[1], 10, 1);

@@ -78,6 +78,22 @@ TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewPlaneAndPredictedDepthGiveT
 }
 
 // What 0.3 units are from far away says nothing of shelves that are near.
+// The second picture has the wall 36 degrees off, and none of its points.
+TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewAnUnsureNormalIsThatOfTheKnownWall) {
+  const auto landmarks_with = [&](int few_points) {
+    map = testing::map_of(points, testing::few_poses(3));
+    const auto keyframes = keyframes_of(map);
+    show(keyframes[0], {wall_corners()});
+    KeyframePerception seen = perceive(map, keyframes[1], {wall_corners()}, 0, 36, 0.04);
+    seen.planes[0].sigma_angle = 0.25;
+    options.few_points = few_points;
+    map_planes(map, keyframes[1], seen, {kScale, kScale, 0.04, 0}, options);
+    return planes_of(map).size();
+  };
+  EXPECT_EQ(landmarks_with(1000), 1u);
+  EXPECT_EQ(landmarks_with(0), 2u);
+}
+
 TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
   const KeyframeId id = map.first();
   map.add_plane(id, seen_from(SE3(), rectangle({-0.5, 0.3, 1}, {1, 0, 0}, {0, 0, 0.5})));

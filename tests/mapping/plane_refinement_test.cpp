@@ -231,6 +231,18 @@ TEST_F(RefineLandmark, ThePointsInItsMasksSayWhereItLies) {
   EXPECT_LT(landmark(id).independent, 3);
 }
 
+// The first picture of a floor may show it from below, so far off normals are.
+TEST_F(RefineLandmark, ThePositiveSideIsThatOfThoseWhoSeeIt) {
+  const auto wall = indices(0, 36);
+  const PlaneId id = see_wall(3, {wall}, {wall});
+  map.planes()[id].plane = landmark(id).plane.flipped();
+  refine_landmark(map, id, 0.01, false);
+  for (const KeyframeId keyframe : keyframes_of(map)) {
+    const Eigen::Vector3d camera = map.keyframes()[keyframe].T_wc.translation();
+    EXPECT_GT(map.plane_in_world(id).signed_distance(camera), 3);
+  }
+}
+
 TEST_F(RefineLandmark, PointsThatOneMaskHasAndTwoHaveNotAreNotAsked) {
   const auto wall = indices(0, 36), all = indices(0, 72);
   const PlaneId id = see_wall(3, {all, wall, wall}, {all, wall, wall});
