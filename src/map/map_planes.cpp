@@ -15,6 +15,7 @@ PlaneObservation observation_of(KeyframeId keyframe, const SeenPlane& seen) {
   o.outlines = {seen.outline};
   o.keypoints = seen.keypoints;
   o.inner = seen.inner;
+  o.beside = seen.beside;
   return o;
 }
 
@@ -23,6 +24,7 @@ void count_votes(const Keyframe& keyframe, const PlaneObservation& o, VotesOf&& 
   if (o.keypoints.empty()) return;  // it stands for one that is gone
   // A detector was asked for corners: what it would say of what was added, it never said.
   std::vector<int MaskVotes::*> where(keyframe.frame->corners(), &MaskVotes::outside);
+  for (const std::uint32_t i : o.beside) where[i] = &MaskVotes::beside;
   for (const std::uint32_t i : o.keypoints) where[i] = &MaskVotes::rim;
   for (const std::uint32_t i : o.inner) where[i] = &MaskVotes::inside;
   for (std::size_t i = 0; i < where.size(); ++i) {
@@ -97,8 +99,10 @@ MaskedPoints Map::points_in_masks(PlaneId id) const {
   }
   MaskedPoints points;
   for (const auto& [p, v] : votes) {
-    if (2 * v.inside > 3 * v.outside) points.inner.push_back(p);
-    if (2 * (v.inside + v.rim) > 3 * v.outside) points.all.push_back(p);
+    const int in = v.inside + v.rim, out = v.beside + v.outside;
+    if (2 * v.inside > 3 * out) points.inner.push_back(p);
+    if (2 * in > 3 * out) points.all.push_back(p);
+    if (2 * (in + v.beside) > 3 * v.outside) points.near.push_back(p);
   }
   return points;
 }
@@ -135,10 +139,7 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   for (const BuriedOutline& seen : moved.buried_outlines) {
     target.buried_outlines.push_back({T_rf * seen.T_rk, seen.outlines});
   }
-  for (const auto& [point, votes] : moved.buried_votes) {
-    MaskVotes& sum = target.buried_votes[point];
-    sum = {sum.inside + votes.inside, sum.rim + votes.rim, sum.outside + votes.outside};
-  }
+  for (const auto& [point, votes] : moved.buried_votes) target.buried_votes[point] += votes;
   update_outline(into);
   for (const PointId point : moved.points) set_plane_of(point, into);
   erase_plane(from);
@@ -174,6 +175,7 @@ void Map::move_planes(KeyframeId from, KeyframeId to) {
       o.outlines.clear();
       o.keypoints.clear();
       o.inner.clear();
+      o.beside.clear();
       if (to.valid()) landmark.add(o);
     }
     if (landmark.reference != from) return;

@@ -38,6 +38,14 @@ SeenPlane SeenPlane::scaled(double factor) const {
   return result;
 }
 
+MaskVotes& MaskVotes::operator+=(const MaskVotes& other) {
+  inside += other.inside;
+  rim += other.rim;
+  beside += other.beside;
+  outside += other.outside;
+  return *this;
+}
+
 bool PlaneLandmark::seen_by(KeyframeId keyframe) const {
   return std::any_of(observations.begin(), observations.end(),
                      [&](const PlaneObservation& o) { return o.keyframe == keyframe; });
@@ -49,6 +57,7 @@ void PlaneLandmark::add(const PlaneObservation& o) {
     append(known.outlines, o.outlines);
     append(known.keypoints, o.keypoints);
     append(known.inner, o.inner);
+    append(known.beside, o.beside);
     return;
   }
   observations.push_back(o);

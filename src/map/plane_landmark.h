@@ -20,6 +20,7 @@ struct SeenPlane {
   double score = 1;                      ///< 0 to 1
   std::vector<std::uint32_t> keypoints;  ///< of the keyframe, inside the mask
   std::vector<std::uint32_t> inner;      ///< those of them that are far from its rim
+  std::vector<std::uint32_t> beside;     ///< of the keyframe, just outside of the mask
   std::vector<Eigen::Vector3d> outline;  ///< corners of the seen part, in order, on the plane
 
   /// Where all lengths are multiplied by `factor`.
@@ -35,19 +36,21 @@ struct PlaneObservation {
   double sigma_offset = 0.05;                          ///< units of the map
   /// Of each part that it sees, keyframe's frame; the rays of corners tell, not how far they are.
   std::vector<std::vector<Eigen::Vector3d>> outlines = {};
-  std::vector<std::uint32_t> keypoints = {}, inner = {};  ///< as in SeenPlane
+  std::vector<std::uint32_t> keypoints = {}, inner = {}, beside = {};  ///< as in SeenPlane
 };
 
-/// How often a point was well inside of a plane's mask, at its rim, and outside of it, in pictures
-/// that show both.
+/// How often a point was well inside of a plane's mask, at its rim, just outside of it, and farther
+/// outside, in pictures that show both.
 struct MaskVotes {
-  int inside = 0, rim = 0, outside = 0;
+  int inside = 0, rim = 0, beside = 0, outside = 0;
+
+  MaskVotes& operator+=(const MaskVotes& other);
 };
 
-/// Points in the masks of a plane, in order of ids: well inside of them, or also at their rims,
-/// where what stands in front is likely.
+/// Points in the masks of a plane, in order of ids: well inside of them; or also at their rims,
+/// where what stands in front is likely; or also just outside, as masks are rough.
 struct MaskedPoints {
-  std::vector<PointId> inner, all;
+  std::vector<PointId> inner, all, near;
 };
 
 /// What a keyframe that is gone saw of a plane: its frame in that of the plane's reference, and

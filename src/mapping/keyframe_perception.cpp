@@ -97,12 +97,14 @@ std::optional<SeenPlane> look_at(const DetectedPlane& detected, const Camera& ca
   if (!std::isfinite(detected.sigma_angle + detected.sigma_depth)) return std::nullopt;
   seen.sigma_angle = std::max(detected.sigma_angle, kLeastSigma);
   seen.sigma_offset = std::max(detected.sigma_depth, kLeastSigma) * seen.centroid.norm();
-  cv::Mat_<float> inside;
+  cv::Mat_<float> inside, outside;  // pixels to the mask's border
   cv::distanceTransform(detected.mask, inside, cv::DIST_L2, 3);
+  cv::distanceTransform(detected.mask == 0, outside, cv::DIST_L2, 3);
   const double rim = kRim * std::sqrt(cv::countNonZero(detected.mask));
   for (std::uint32_t i = 0; i < pixels.size(); ++i) {
     if (inside(pixels[i]) > 0) seen.keypoints.push_back(i);
     if (inside(pixels[i]) > rim) seen.inner.push_back(i);
+    if (outside(pixels[i]) > 0 && outside(pixels[i]) <= rim) seen.beside.push_back(i);
   }
   return seen;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -28,6 +29,9 @@ constexpr double kUnsure = 2;   // points much less sure than surfaces are flat 
 // Things stand before surfaces, and masks are rough; what is behind a surface is hidden by it.
 constexpr double kOfThingsBefore = 0.5;
 constexpr double kPlace = 5;  // side of a place, in σ by which surfaces are not flat
+// Floors and ceilings end at walls, and have corners there if anywhere: doors begin, skirting
+// boards end. So much closer to the plane they must be than those in its masks.
+constexpr double kBeside = 2.0 / 3;
 
 // In the world. Its depth is as sure as the rays of its observations are apart.
 PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
@@ -220,6 +224,20 @@ SortedPoints sort_points(const Map& map, PlaneId id, const std::vector<PointId>&
   return result;
 }
 
+// Those at the rims of its masks, too: a plane that is well known tells them from what stands in
+// front of it. And just outside of them, where it is one that walls end.
+std::vector<PointId> all_on(const Map& map, PlaneId id, const MaskedPoints& masked,
+                            double point_sigma) {
+  const auto with_rim = sort_points(map, id, masked.all, point_sigma).on;
+  const std::string& label = map.planes()[id].label();
+  if (label != "floor" && label != "ceiling") return with_rim;
+  const auto near = sort_points(map, id, masked.near, kBeside * point_sigma).on;
+  std::vector<PointId> result;
+  std::set_union(with_rim.begin(), with_rim.end(), near.begin(), near.end(),
+                 std::back_inserter(result));
+  return result;
+}
+
 // Points in order. One that lies on another plane already stays there.
 void set_members(Map& map, PlaneId id, const std::vector<PointId>& points) {
   const std::vector<PointId> before = map.planes()[id].points;
@@ -277,13 +295,13 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
     times.push_back(map.keyframes()[o.keyframe].timestamp());
   }
   landmark.independent = independent_pictures(std::move(times));
-  auto [seen, with_rim] = map.points_in_masks(id);
-  const auto assumed = [&](PointId p) { return map.points()[p].assumed; };
-  std::erase_if(seen, assumed);
-  std::erase_if(with_rim, assumed);
-  if (seen.size() < kFewPoints) seen = with_rim;
+  MaskedPoints masked = map.points_in_masks(id);
+  for (auto* points : {&masked.inner, &masked.all, &masked.near}) {
+    std::erase_if(*points, [&](PointId p) { return map.points()[p].assumed; });
+  }
+  const auto& seen = masked.inner.size() < kFewPoints ? masked.all : masked.inner;
   if (!landmark.confirmed || (manhattan && is_askew(map, id))) {
-    landmark.sigma_tilt = fit_to(map, id, with_rim, point_sigma, manhattan);
+    landmark.sigma_tilt = fit_to(map, id, masked.all, point_sigma, manhattan);
   } else {
     landmark.sigma_tilt = tilt_sigma(map, id, point_sigma, manhattan);
   }
@@ -292,9 +310,8 @@ void refine_landmark(Map& map, PlaneId id, double point_sigma, bool manhattan) {
   const double there = double(on.size());
   landmark.judges = there + behind + kOfThingsBefore * before;
   landmark.share = on.empty() ? 0 : there / landmark.judges;
-  // Of a plane that is well known those at the rims are told from what stands in front.
   const bool well_known = landmark.sigma_tilt < kWellKnown;
-  set_members(map, id, well_known ? sort_points(map, id, with_rim, point_sigma).on : on);
+  set_members(map, id, well_known ? all_on(map, id, masked, point_sigma) : on);
   landmark.detected = detection_rate(map, landmark);
   map.update_outline(id);
 }

@@ -77,6 +77,20 @@ TEST(KeyframePerception, OfAPlaneIsWhatItsMaskShows) {
   EXPECT_NEAR(seen.sigma_offset, 0.04 * seen.centroid.norm(), 1e-12);
 }
 
+TEST(KeyframePerception, KeypointsJustOutsideOfTheMaskAreBesideIt) {
+  DetectedFrame frame;
+  frame.planes = {detected()};
+  EXPECT_THAT(summary_of(frame).planes[0].beside, IsEmpty()) << "the next ones are 10 pixels off";
+  frame.planes[0].mask.colRange(388, 640).setTo(0);  // those at 390
+  const SeenPlane seen = summary_of(frame).planes[0];
+  ASSERT_THAT(seen.beside, SizeIs(8));
+  for (const std::uint32_t i : seen.beside) {
+    EXPECT_EQ(pixels()[i].x(), 390);
+    EXPECT_TRUE(inside(pixels()[i]));
+  }
+  EXPECT_THAT(seen.keypoints, SizeIs(9 * 8));
+}
+
 TEST(KeyframePerception, CountsWhatHangsOnAWallAmongItsKeypointsAtTheRim) {
   DetectedFrame frame;
   frame.planes = {detected()};

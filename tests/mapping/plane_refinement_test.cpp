@@ -189,7 +189,8 @@ class RefineLandmark : public ::testing::Test {
   // As the first `pictures` keyframes see the wall, five degrees off, with these keypoints in the
   // masks and far from their rims.
   PlaneId see_wall(int pictures, const std::vector<std::vector<std::uint32_t>>& keypoints,
-                   const std::vector<std::vector<std::uint32_t>>& inner) {
+                   const std::vector<std::vector<std::uint32_t>>& inner,
+                   const std::vector<std::uint32_t>& beside = {}) {
     PlaneId id;
     const auto keyframes = keyframes_of(map);
     for (int i = 0; i < pictures; ++i) {
@@ -198,6 +199,7 @@ class RefineLandmark : public ::testing::Test {
       seen.sigma_offset = 0.4;
       seen.keypoints = keypoints[i % keypoints.size()];
       seen.inner = inner[i % inner.size()];
+      seen.beside = beside;
       if (i == 0) {
         id = map.add_plane(keyframes[i], seen);
       } else {
@@ -256,6 +258,22 @@ TEST_F(RefineLandmark, PointsAtTheRimsCountOnlyOnceThePlaneIsWellKnown) {
   EXPECT_THAT(map.plane_in_world(id), IsNearPlane(kWall, 0.5, 0.01)) << "not bent by the rims";
   EXPECT_EQ(landmark(id).share, 1);
   EXPECT_GE(landmark(id).points.size(), 36u) << "the rest of the wall, too";
+}
+
+// The last points are just outside of all masks, as is one of two that lie a little before it.
+TEST_F(RefineLandmark, OfFloorsThatAreWellKnownPointsJustOutsideOfMasksCountThatAreClose) {
+  std::vector<Eigen::Vector3d> some = grid_on(wall_corners(), 6);
+  for (const double x : {0.2, -0.2}) some.emplace_back(x, 0.1, 4 - 0.028 * 4);  // 2.8 σ
+  map = map_of(some, few_poses(8));
+  const auto in_mask = indices(0, 33);
+  const PlaneId id = see_wall(3, {in_mask}, {in_mask}, indices(33, 4));
+  ASSERT_THAT(map.plane_in_world(id), IsNearPlane(kWall, 0.5, 0.01));
+  for (const std::string label : {"wall", "floor", "ceiling"}) {
+    map.planes()[id].votes = {{label, 1}};
+    refine_landmark(map, id, 0.01, false);
+    EXPECT_THAT(landmark(id).points, SizeIs(label == "wall" ? 33 : 36)) << label;
+    EXPECT_EQ(landmark(id).judges, 33) << "they have no say in whether there is one";
+  }
 }
 
 TEST_F(RefineLandmark, ShowsInHowManyOfThePicturesOfItsPointsItWasDetected) {
