@@ -228,7 +228,7 @@ SortedPoints sort_points(const Map& map, PlaneId id, const std::vector<PointId>&
 // front of it. And just outside of them, where it is one that walls end.
 std::vector<PointId> all_on(const Map& map, PlaneId id, const MaskedPoints& masked,
                             double point_sigma) {
-  const auto with_rim = sort_points(map, id, masked.all, point_sigma).on;
+  auto with_rim = sort_points(map, id, masked.all, point_sigma).on;
   const std::string& label = map.planes()[id].label();
   if (label != "floor" && label != "ceiling") return with_rim;
   const auto near = sort_points(map, id, masked.near, kBeside * point_sigma).on;
