@@ -32,6 +32,7 @@ constexpr double kPlace = 5;  // side of a place, in σ by which surfaces are no
 // Floors and ceilings end at walls, and have corners there if anywhere: doors begin, skirting
 // boards end. So much closer to the plane they must be than those in its masks.
 constexpr double kBeside = 2.0 / 3;
+constexpr std::size_t kBare = 100;  // points in the masks of a floor: with more these do without
 
 // In the world. Its depth is as sure as the rays of its observations are apart.
 PlanePoint plane_point(const Map& map, PointId id, double point_sigma) {
@@ -225,12 +226,12 @@ SortedPoints sort_points(const Map& map, PlaneId id, const std::vector<PointId>&
 }
 
 // Those at the rims of its masks, too: a plane that is well known tells them from what stands in
-// front of it. And just outside of them, where it is one that walls end.
+// front of it. And just outside of them, where it is a bare one that walls end.
 std::vector<PointId> all_on(const Map& map, PlaneId id, const MaskedPoints& masked,
                             double point_sigma) {
   auto with_rim = sort_points(map, id, masked.all, point_sigma).on;
   const std::string& label = map.planes()[id].label();
-  if (label != "floor" && label != "ceiling") return with_rim;
+  if ((label != "floor" && label != "ceiling") || with_rim.size() >= kBare) return with_rim;
   const auto near = sort_points(map, id, masked.near, kBeside * point_sigma).on;
   std::vector<PointId> result;
   std::set_union(with_rim.begin(), with_rim.end(), near.begin(), near.end(),
