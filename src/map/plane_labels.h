@@ -20,4 +20,7 @@ bool is_upright(const std::string& label);
 /// Of what things stand on: floors, tables, roads.
 bool carries_things(const std::string& label);
 
+/// Of floors and ceilings, which go on behind all that stands on them until a wall ends them.
+bool is_ended_by_walls(const std::string& label);
+
 }  // namespace cairn

@@ -230,8 +230,7 @@ SortedPoints sort_points(const Map& map, PlaneId id, const std::vector<PointId>&
 std::vector<PointId> all_on(const Map& map, PlaneId id, const MaskedPoints& masked,
                             double point_sigma) {
   auto with_rim = sort_points(map, id, masked.all, point_sigma).on;
-  const std::string& label = map.planes()[id].label();
-  if ((label != "floor" && label != "ceiling") || with_rim.size() >= kBare) return with_rim;
+  if (!is_ended_by_walls(map.planes()[id].label()) || with_rim.size() >= kBare) return with_rim;
   const auto near = sort_points(map, id, masked.near, kBeside * point_sigma).on;
   std::vector<PointId> result;
   std::set_union(with_rim.begin(), with_rim.end(), near.begin(), near.end(),

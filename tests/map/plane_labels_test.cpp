@@ -28,5 +28,12 @@ TEST(PlaneLabels, WallsAreUprightAndFloorsAreNot) {
   EXPECT_FALSE(is_upright("cabinet"));
 }
 
+TEST(PlaneLabels, WallsEndFloorsAndCeilingsButNoTables) {
+  EXPECT_TRUE(is_ended_by_walls("floor"));
+  EXPECT_TRUE(is_ended_by_walls("ceiling"));
+  EXPECT_FALSE(is_ended_by_walls("table"));
+  EXPECT_FALSE(is_ended_by_walls("wall"));
+}
+
 }  // namespace
 }  // namespace cairn

@@ -77,7 +77,6 @@ TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewPlaneAndPredictedDepthGiveT
   EXPECT_EQ(broken_planes(map), "");
 }
 
-// What 0.3 units are from far away says nothing of shelves that are near.
 // The second picture has the wall 36 degrees off, and none of its points.
 TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewAnUnsureNormalIsThatOfTheKnownWall) {
   const auto landmarks_with = [&](int few_points) {
@@ -94,6 +93,7 @@ TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewAnUnsureNormalIsThatOfTheKn
   EXPECT_EQ(landmarks_with(0), 2u);
 }
 
+// What 0.3 units are from far away says nothing of shelves that are near.
 TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
   const KeyframeId id = map.first();
   map.add_plane(id, seen_from(SE3(), rectangle({-0.5, 0.3, 1}, {1, 0, 0}, {0, 0, 0.5})));
