@@ -172,8 +172,8 @@ class Map {
   MaskedPoints points_in_masks(PlaneId id) const;
   /// Draws the outline anew from what all keyframes saw of the plane.
   void update_outline(PlaneId id);
-  /// What each picture saw of a plane, on the plane as it is now; reference's frame.
-  std::vector<std::vector<Eigen::Vector3d>> seen_outlines(PlaneId id) const;
+  /// What each picture saw of a plane, those of keyframes that are gone among them.
+  std::vector<PlaneOutlines> plane_views(PlaneId id) const;
   /// Points whose depth it gave go with it.
   void erase_plane(PlaneId id);
   /// Says that a point lies on a plane, or (invalid id) on none.

@@ -56,7 +56,7 @@ void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) 
 template <class Function>
 void Map::for_each_view(PlaneId id, Function&& f) const {
   const PlaneLandmark& landmark = planes_[id];
-  for (const BuriedOutline& seen : landmark.buried_outlines) f(seen.T_rk, seen.outlines);
+  for (const PlaneOutlines& seen : landmark.buried_views) f(seen.T_rk, seen.outlines);
   const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
   for (const PlaneObservation& o : landmark.observations) {
     f(T_rw * keyframes_[o.keyframe].T_wc, o.outlines);
@@ -76,12 +76,12 @@ void Map::update_outline(PlaneId id) {
   if (outline.size() > 2) planes_[id].outline = std::move(outline);
 }
 
-std::vector<std::vector<Eigen::Vector3d>> Map::seen_outlines(PlaneId id) const {
-  std::vector<std::vector<Eigen::Vector3d>> outlines;
+std::vector<PlaneOutlines> Map::plane_views(PlaneId id) const {
+  std::vector<PlaneOutlines> views;
   for_each_view(id, [&](const SE3& T_rk, const std::vector<std::vector<Eigen::Vector3d>>& parts) {
-    for (const auto& part : parts) outlines.push_back(outline_on(planes_[id].plane, T_rk, part));
+    views.push_back({T_rk, parts});
   });
-  return outlines;
+  return views;
 }
 
 MaskedPoints Map::points_in_masks(PlaneId id) const {
@@ -136,8 +136,8 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   target.last_seen = std::max(target.last_seen, moved.last_seen);
   for (const PlaneObservation& o : moved.observations) target.add(o);
   const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
-  for (const BuriedOutline& seen : moved.buried_outlines) {
-    target.buried_outlines.push_back({T_rf * seen.T_rk, seen.outlines});
+  for (const PlaneOutlines& seen : moved.buried_views) {
+    target.buried_views.push_back({T_rf * seen.T_rk, seen.outlines});
   }
   for (const auto& [point, votes] : moved.buried_votes) target.buried_votes[point] += votes;
   update_outline(into);
@@ -166,7 +166,7 @@ void Map::move_planes(KeyframeId from, KeyframeId to) {
       PlaneObservation o = std::move(*seen);
       landmark.observations.erase(seen);
       const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
-      landmark.buried_outlines.push_back({T_rw * keyframes_[from].T_wc, std::move(o.outlines)});
+      landmark.buried_views.push_back({T_rw * keyframes_[from].T_wc, std::move(o.outlines)});
       o.keyframe = to;
       o.normal = T_tf.rotation() * o.normal;
       o.centroid = T_tf * o.centroid;

@@ -126,7 +126,7 @@ void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& 
   landmark.reference = reference;
   landmark.plane = landmark.plane.transformed(T_nr);
   landmark.outline = transformed(std::move(landmark.outline), T_nr);
-  for (BuriedOutline& seen : landmark.buried_outlines) seen.T_rk = T_nr * seen.T_rk;
+  for (PlaneOutlines& seen : landmark.buried_views) seen.T_rk = T_nr * seen.T_rk;
 }
 
 std::vector<Eigen::Vector3d> convex_outline(const Plane& plane,

@@ -53,9 +53,9 @@ struct MaskedPoints {
   std::vector<PointId> inner, all, near;
 };
 
-/// What a keyframe that is gone saw of a plane: its frame in that of the plane's reference, and
-/// outlines in its frame, as in PlaneObservation.
-struct BuriedOutline {
+/// What a keyframe saw of a plane: its frame in that of the plane's reference, and outlines in its
+/// frame, as in PlaneObservation.
+struct PlaneOutlines {
   SE3 T_rk;
   std::vector<std::vector<Eigen::Vector3d>> outlines;
 };
@@ -67,9 +67,9 @@ struct PlaneLandmark {
   std::map<std::string, double> votes = {};         ///< for each label: sum of scores
   std::vector<PlaneObservation> observations = {};  ///< one a keyframe, in order of arrival
   std::vector<PointId> points = {};                 ///< map points that lie on it
-  // What keyframes saw that are gone: points in masks, outlines.
+  // What keyframes saw that are gone.
   std::map<PointId, MaskVotes> buried_votes = {};
-  std::vector<BuriedOutline> buried_outlines = {};
+  std::vector<PlaneOutlines> buried_views = {};
   std::vector<Eigen::Vector3d> outline = {};  ///< convex hull, in the reference's frame
   std::uint32_t sightings = 0;                ///< pictures that showed it, ever
   std::uint32_t last_seen = 0;                ///< sequence number of the newest of them

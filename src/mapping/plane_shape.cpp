@@ -13,6 +13,8 @@ namespace {
 constexpr int kCells = 160;           // along the longer side of what the shape is drawn on
 constexpr int kMargin = 2;            // cells around it
 constexpr double kRare = 0.15;        // of the pictures that show a usual place: fewer are mistaken
+constexpr double kShare = 0.4;        // of what pictures say of a place: with more it is surface;
+constexpr double kOfSurest = 0.7;     // or so much of the share of the surest twentieth of places
 constexpr int kLargestGap = 32;       // cells, that are closed
 constexpr double kNearlyAll = 0.95;   // of the area, that one part must have
 constexpr double kCornerError = 2.0;  // cells, that a simplified outline may be off
@@ -34,21 +36,30 @@ class Board {
     size_ = cv::Size(cell_of(high.x(), 0) + kMargin + 1, cell_of(high.y(), 1) + kMargin + 1);
   }
 
-  cv::Mat_<unsigned char> filled(const std::vector<Eigen::Vector3d>& polygon) const {
-    cv::Mat_<unsigned char> mask = cv::Mat_<unsigned char>::zeros(size_);
-    std::vector<cv::Point> corners;
-    corners.reserve(polygon.size());
-    for (const Eigen::Vector3d& x : polygon) {
-      corners.emplace_back(cell_of(u_.dot(x), 0), cell_of(v_.dot(x), 1));
+  cv::Mat_<unsigned char> blank() const { return cv::Mat_<unsigned char>::zeros(size_); }
+
+  // Not all of them are on the board.
+  std::vector<cv::Point> cells_of(const std::vector<Eigen::Vector3d>& points) const {
+    std::vector<cv::Point> cells;
+    cells.reserve(points.size());
+    for (const Eigen::Vector3d& x : points) {
+      cells.emplace_back(cell_of(u_.dot(x), 0), cell_of(v_.dot(x), 1));
     }
+    return cells;
+  }
+
+  void fill(const std::vector<Eigen::Vector3d>& polygon, cv::Mat_<unsigned char>& mask) const {
+    const std::vector<cv::Point> corners = cells_of(polygon);
     if (corners.size() > 2) cv::fillPoly(mask, std::vector{corners}, cv::Scalar(1));
-    return mask;
   }
 
   Eigen::Vector3d on_plane(const cv::Point& at) const {
     return foot_ + (low_.x() + (at.x - kMargin) * cell_) * u_ +
            (low_.y() + (at.y - kMargin) * cell_) * v_;
   }
+
+  // From a cell to the next of its row.
+  Eigen::Vector3d step() const { return cell_ * u_; }
 
   cv::Size size() const { return size_; }
 
@@ -64,23 +75,87 @@ class Board {
   cv::Size size_;
 };
 
-// What is shown often enough.
-cv::Mat_<unsigned char> commonly_seen(const Board& board,
-                                      const std::vector<std::vector<Eigen::Vector3d>>& outlines) {
-  cv::Mat_<unsigned short> pictures = cv::Mat_<unsigned short>::zeros(board.size());
-  for (const auto& outline : outlines) {
-    cv::add(pictures, board.filled(outline), pictures, cv::noArray(), CV_16U);
+template <class T>
+T quantile(const cv::Mat_<T>& values, const cv::Mat_<unsigned char>& where, double rank) {
+  std::vector<T> chosen;
+  for (int row = 0; row < values.rows; ++row) {
+    for (int column = 0; column < values.cols; ++column) {
+      if (where(row, column) != 0) chosen.push_back(values(row, column));
+    }
   }
-  std::vector<unsigned short> shown;
-  std::copy_if(pictures.begin(), pictures.end(), std::back_inserter(shown),
-               [](unsigned short n) { return n > 0; });
-  if (shown.empty()) return cv::Mat_<unsigned char>::zeros(board.size());
-  const auto half = shown.begin() + std::ptrdiff_t(shown.size() / 2);
-  std::nth_element(shown.begin(), half, shown.end());
-  return pictures >= std::max(1.0, std::ceil(kRare * *half));
+  const auto at = chosen.begin() + std::ptrdiff_t(rank * double(chosen.size() - 1));
+  std::nth_element(chosen.begin(), at, chosen.end());
+  return *at;
 }
 
-// The one part that is left when gaps are closed, the narrowest first; empty where none is.
+// What pictures say of each place that they look at: it is in the mask, or not. Each counts by the
+// solid angle under which it sees the place: masks are rough in pixels, and what is seen from afar,
+// or nearly along the plane, may be of what stands behind.
+class Poll {
+ public:
+  explicit Poll(const Board& board)
+      : board_(board),
+        pictures_(cv::Mat_<unsigned short>::zeros(board.size())),
+        inside_(cv::Mat_<float>::zeros(board.size())),
+        all_(cv::Mat_<float>::zeros(board.size())) {}
+
+  void ask(const PlaneOutlines& picture, const Plane& plane, const View& camera) {
+    cv::Mat_<unsigned char> mask = board_.blank();
+    for (const auto& part : picture.outlines) {
+      board_.fill(outline_on(plane, picture.T_rk, part), mask);
+    }
+    cv::add(pictures_, mask, pictures_, cv::noArray(), CV_16U);
+    const SE3 T_kr = picture.T_rk.inverse();
+    const double height = std::abs(plane.signed_distance(picture.T_rk.translation()));
+    const Eigen::Vector3d step = T_kr.rotation() * board_.step();
+    for (int row = 0; row < mask.rows; ++row) {
+      Eigen::Vector3d x = T_kr * board_.on_plane({0, row});
+      for (int column = 0; column < mask.cols; ++column, x += step) {
+        if (!(x.z() > 0) || !camera.contains(camera.pinhole().project(x))) continue;
+        const double squared = x.squaredNorm();
+        const auto weight = static_cast<float>(height / (squared * std::sqrt(squared)));
+        all_(row, column) += weight;
+        if (mask(row, column) != 0) inside_(row, column) += weight;
+      }
+    }
+  }
+
+  // Where enough of them say that it is.
+  cv::Mat_<unsigned char> surface() const {
+    const cv::Mat_<unsigned char> shown = pictures_ > 0;
+    if (cv::countNonZero(shown) == 0) return board_.blank();
+    const cv::Mat_<unsigned char> common =
+        pictures_ >= std::ceil(kRare * quantile(pictures_, shown, 0.5));
+    cv::Mat_<float> share;
+    cv::divide(inside_, cv::max(all_, std::numeric_limits<float>::min()), share);
+    return common & shown &
+           (share >= std::min(kShare, kOfSurest * quantile(share, common & shown, 0.95)));
+  }
+
+ private:
+  const Board& board_;
+  cv::Mat_<unsigned short> pictures_;
+  cv::Mat_<float> inside_, all_;
+};
+
+// Parts without a point of the plane are left out, if it has points elsewhere.
+cv::Mat_<unsigned char> with_points(const cv::Mat_<unsigned char>& seen,
+                                    const std::vector<cv::Point>& points) {
+  cv::Mat_<int> parts;
+  std::vector<bool> has_point(std::size_t(cv::connectedComponents(seen, parts)), false);
+  for (const cv::Point& at : points) {
+    if (cv::Rect({}, seen.size()).contains(at)) has_point[std::size_t(parts(at))] = true;
+  }
+  has_point[0] = false;  // what is not seen
+  if (std::none_of(has_point.begin(), has_point.end(), [](bool has) { return has; })) return seen;
+  cv::Mat_<unsigned char> kept = cv::Mat_<unsigned char>::zeros(seen.size());
+  std::transform(parts.begin(), parts.end(), kept.begin(),
+                 [&](int part) { return has_point[std::size_t(part)] ? 255 : 0; });
+  return kept;
+}
+
+// The one part that is left when gaps are closed, the narrowest first; of parts that are far apart
+// their convex outline; empty where there are none.
 std::vector<cv::Point> border_of(const cv::Mat_<unsigned char>& seen) {
   for (int gap = 2; gap <= kLargestGap; gap *= 2) {
     cv::Mat closed;
@@ -100,7 +175,10 @@ std::vector<cv::Point> border_of(const cv::Mat_<unsigned char>& seen) {
     }
     if (largest != nullptr && most > kNearlyAll * all) return std::move(*largest);
   }
-  return {};
+  std::vector<cv::Point> cells, hull;
+  cv::findNonZero(seen, cells);
+  if (!cells.empty()) cv::convexHull(cells, hull);
+  return hull;
 }
 
 }  // namespace
@@ -110,8 +188,15 @@ std::vector<Eigen::Vector3d> plane_shape(const Map& map, PlaneId id) {
   if (landmark.outline.empty()) return {};
   const SE3& T_wr = map.keyframes()[landmark.reference].T_wc;
   const Board board(landmark.plane, landmark.outline);
-  const cv::Mat_<unsigned char> seen = commonly_seen(board, map.seen_outlines(id));
-  std::vector<cv::Point> corners = border_of(seen & board.filled(landmark.outline) * 255);
+  Poll poll(board);
+  for (const PlaneOutlines& view : map.plane_views(id)) poll.ask(view, landmark.plane, map.view());
+  cv::Mat_<unsigned char> hull = board.blank();
+  board.fill(landmark.outline, hull);
+  std::vector<Eigen::Vector3d> points;
+  for (const PointId p : landmark.points) points.push_back(map.points()[p].position);
+  points = transformed(std::move(points), T_wr.inverse());
+  std::vector<cv::Point> corners =
+      border_of(with_points(poll.surface() & hull * 255, board.cells_of(points)));
   if (!corners.empty()) cv::approxPolyDP(std::vector(corners), corners, kCornerError, true);
   std::vector<Eigen::Vector3d> shape;
   if (corners.size() < 3) {

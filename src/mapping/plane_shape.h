@@ -7,10 +7,10 @@
 
 namespace cairn {
 
-/// What of its surface the pictures of a plane have shown: the union of their masks, but for what
-/// hardly any of them shows, with its holes and narrow gaps closed. An L stays an L. Corners in the
-/// world, in order, counter-clockwise seen from where the normal points; for people and files.
-/// Where the parts are far from each other it is the convex outline of the landmark.
+/// Where a plane is surface, as most of what its pictures say of each place that they look at: in
+/// the mask, or not; with holes and narrow gaps closed. An L stays an L; parts that are far from
+/// each other get a convex outline. Corners in the world, in order, counter-clockwise seen from
+/// where the normal points; for people and files.
 std::vector<Eigen::Vector3d> plane_shape(const Map& map, PlaneId id);
 
 }  // namespace cairn
