@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -58,9 +59,10 @@ bool is_behind(const SeenPlane& seen, const KnownPlane& known) {
   return known.plane.offset() < -kBehind * seen.centroid.norm();
 }
 
-// 1 where the normals or the offsets are as far apart as is allowed.
+// 1 where the normals or the offsets are as far apart as is allowed; infinite from behind.
 double disagreement(const SeenPlane& seen, const KnownPlane& known,
                     const PlaneAssociationOptions& options) {
+  if (is_behind(seen, known)) return std::numeric_limits<double>::infinity();
   const double tilt = known.sigma_tilt * (seen.centroid - middle_of(known.outline)).norm();
   const double sigma = std::hypot(seen.sigma_offset, tilt);
   const double angle = angle_between(seen.plane, known.plane) /
@@ -73,7 +75,8 @@ double disagreement(const SeenPlane& seen, const KnownPlane& known,
 // Where many points are shared, no σ is asked: they lie on both.
 bool nearly_agree(const SeenPlane& seen, const KnownPlane& known,
                   const PlaneAssociationOptions& options) {
-  return angle_between(seen.plane, known.plane) <= options.max_angle_deg * kRadians &&
+  return !is_behind(seen, known) &&
+         angle_between(seen.plane, known.plane) <= options.max_angle_deg * kRadians &&
          std::abs(known.plane.signed_distance(seen.centroid)) <=
              options.max_offset * seen.centroid.norm();
 }
@@ -95,7 +98,7 @@ class Candidates {
     const KnownPlane* best = nullptr;
     int most = 0;
     for (const KnownPlane& known : known_) {
-      if (is_behind(seen, known) || !nearly_agree(seen, known, options_)) continue;
+      if (!nearly_agree(seen, known, options_)) continue;
       const int count = count_shared(known, points, kTouch * seen.centroid.norm());
       if (count <= most) continue;
       most = count;
@@ -173,7 +176,7 @@ const KnownPlane* nearest_surface(const SeenPlane& seen, std::span<const KnownPl
   const double margin = kTouch * seen.centroid.norm();
   for (const KnownPlane& plane : known) {
     const double off = disagreement(seen, plane, options);
-    if (off > least || is_behind(seen, plane)) continue;
+    if (off > least) continue;
     const bool together =
         touch(seen.outline, plane.outline, plane.plane.normal(), margin) ||
         touch(plane.outline, convex_outline(seen.plane, seen.outline), seen.plane.normal(), margin);

@@ -242,12 +242,9 @@ double Map::depth_quantile(KeyframeId id, double quantile) const {
   return *nth;
 }
 
-int Map::tracked_points(KeyframeId id, int min_observations) const {
-  int count = 0;
-  for (const PointId p : keyframes_[id].points) {
-    count += p.valid() && int(points_[p].observations.size()) >= min_observations;
-  }
-  return count;
+int Map::tracked_points(KeyframeId id) const {
+  const std::vector<PointId>& points = keyframes_[id].points;
+  return int(std::count_if(points.begin(), points.end(), [](PointId p) { return p.valid(); }));
 }
 
 }  // namespace cairn

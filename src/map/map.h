@@ -204,8 +204,8 @@ class Map {
       std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// Quantile (0.5: median) of the depths of the points that a keyframe sees; 0 where it sees none.
   double depth_quantile(KeyframeId id, double quantile) const;
-  /// Number of points of a keyframe that at least `min_observations` keyframes see.
-  int tracked_points(KeyframeId id, int min_observations) const;
+  /// How many points a keyframe sees.
+  int tracked_points(KeyframeId id) const;
   /// Depths at the keypoints of a keyframe; where no point is, that of most.
   std::vector<double> depths(KeyframeId id) const;
 

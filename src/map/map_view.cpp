@@ -33,7 +33,7 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->version = version;
   view->reference = reference;
   view->reference_frame = map.keyframes()[reference].frame;
-  view->reference_tracked = map.tracked_points(reference, 1);
+  view->reference_tracked = map.tracked_points(reference);
   view->median_depth = map.depth_quantile(reference, 0.5);
   view->newest = map.keyframes()[map.newest()].sequence;
   view->map_keyframes = map.keyframes().size();

@@ -193,8 +193,7 @@ TEST(Map, DepthQuantilesAreThoseOfThePointsSeen) {
   EXPECT_EQ(map.depth_quantile(a, 0), 1);
   EXPECT_EQ(map.depth_quantile(a, 0.5), 3);
   EXPECT_EQ(map.depth_quantile(a, 1), 5);
-  EXPECT_EQ(map.tracked_points(a, 2), 5);
-  EXPECT_EQ(map.tracked_points(a, 3), 0);
+  EXPECT_EQ(map.tracked_points(a), 5);
 }
 
 TEST(Map, RemembersItsFirstAndItsNewestKeyframe) {

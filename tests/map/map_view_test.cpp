@@ -91,7 +91,7 @@ TEST_F(MapViewTest, CountsPointsThatOnlyTheReferenceHasSeen) {
 }
 
 TEST_F(MapViewTest, StopsAtTheMostPointsButKeepsThoseOfTheReference) {
-  const int own = map.tracked_points(keyframes[1], 2);
+  const int own = map.tracked_points(keyframes[1]);
   const auto view = make_view(map, keyframes[1], 10, 1);
   EXPECT_EQ(static_cast<int>(view->points.size()), own);
   for (const KeyframeId k : {keyframes[0], keyframes[1], keyframes[2]}) {
