@@ -10,14 +10,15 @@
 namespace cairn {
 namespace {
 
-constexpr int kCells = 160;           // along the longer side of what the shape is drawn on
-constexpr int kMargin = 2;            // cells around it
-constexpr double kRare = 0.15;        // of the pictures that show a usual place: fewer are mistaken
-constexpr double kShare = 0.4;        // of what pictures say of a place: with more it is surface;
-constexpr double kOfSurest = 0.7;     // or so much of the share of the surest twentieth of places
-constexpr int kLargestGap = 32;       // cells, that are closed
-constexpr double kNearlyAll = 0.95;   // of the area, that one part must have
-constexpr double kCornerError = 2.0;  // cells, that a simplified outline may be off
+constexpr int kCells = 160;        // along the longer side of what the shape is drawn on
+constexpr int kMargin = 2;         // cells around it
+constexpr double kRare = 0.15;     // of the pictures that show a usual place: fewer are mistaken
+constexpr double kShare = 0.4;     // of what pictures say of a place: with more it is surface;
+constexpr double kOfSurest = 0.7;  // or so much of the share of the surest twentieth of places
+constexpr std::size_t kTextured = 100;  // points of a plane: with so many a part has some, too
+constexpr int kLargestGap = 32;         // cells, that are closed
+constexpr double kNearlyAll = 0.95;     // of the area, that one part must have
+constexpr double kCornerError = 2.0;    // cells, that a simplified outline may be off
 
 // The plane as a drawing board around its convex outline; lengths in cells.
 class Board {
@@ -75,6 +76,7 @@ class Board {
   cv::Size size_;
 };
 
+// Of the values at chosen places, of which there is one at least.
 template <class T>
 T quantile(const cv::Mat_<T>& values, const cv::Mat_<unsigned char>& where, double rank) {
   std::vector<T> chosen;
@@ -138,7 +140,7 @@ class Poll {
   cv::Mat_<float> inside_, all_;
 };
 
-// Parts without a point of the plane are left out, if it has points elsewhere.
+// The parts in which points of the plane lie; all if none does.
 cv::Mat_<unsigned char> with_points(const cv::Mat_<unsigned char>& seen,
                                     const std::vector<cv::Point>& points) {
   cv::Mat_<int> parts;
@@ -195,8 +197,9 @@ std::vector<Eigen::Vector3d> plane_shape(const Map& map, PlaneId id) {
   std::vector<Eigen::Vector3d> points;
   for (const PointId p : landmark.points) points.push_back(map.points()[p].position);
   points = transformed(std::move(points), T_wr.inverse());
-  std::vector<cv::Point> corners =
-      border_of(with_points(poll.surface() & hull * 255, board.cells_of(points)));
+  cv::Mat_<unsigned char> surface = poll.surface() & hull * 255;
+  if (points.size() >= kTextured) surface = with_points(surface, board.cells_of(points));
+  std::vector<cv::Point> corners = border_of(surface);
   if (!corners.empty()) cv::approxPolyDP(std::vector(corners), corners, kCornerError, true);
   std::vector<Eigen::Vector3d> shape;
   if (corners.size() < 3) {

@@ -11,7 +11,6 @@ using testing::few_poses;
 using testing::grid_on;
 using testing::keyframes_of;
 using testing::map_of;
-using testing::points_of;
 using testing::rectangle;
 using testing::seen_from;
 using testing::wall_corners;
@@ -124,9 +123,16 @@ TEST(PlaneShape, OfPartsThatAreFarApartIsConvex) {
   EXPECT_NEAR(area(wall.shape()), 6, 0.15);
 }
 
-TEST(PlaneShape, LeavesOutPartsWithoutPointsIfOthersHaveSome) {
+TEST(PlaneShape, LeavesOutPartsWithoutPointsWhereOthersAreFullOfThem) {
   SeenWall wall({kLeft, kRight});
-  wall.map.set_plane_of(points_of(wall.map).front(), wall.id);  // of the grid's corner, on the left
+  const auto add_points = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      wall.map.set_plane_of(wall.map.add_point({-1.2, -0.5 + 0.01 * i, 4}), wall.id);
+    }
+  };
+  add_points(20);
+  EXPECT_NEAR(area(wall.shape()), 6, 0.15) << "a bare wall";
+  add_points(80);
   EXPECT_NEAR(area(wall.shape()), 1, 0.05);
 }
 
