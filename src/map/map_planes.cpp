@@ -9,6 +9,8 @@
 namespace cairn {
 namespace {
 
+constexpr std::size_t kMostBuried = 200;  // outlines of a plane: each is looked at in each keyframe
+
 PlaneObservation observation_of(KeyframeId keyframe, const SeenPlane& seen) {
   PlaneObservation o{keyframe, seen.plane.facing_origin().normal(), seen.centroid, seen.sigma_angle,
                      seen.sigma_offset};
@@ -17,6 +19,15 @@ PlaneObservation observation_of(KeyframeId keyframe, const SeenPlane& seen) {
   o.inner = seen.inner;
   o.beside = seen.beside;
   return o;
+}
+
+// Every other one goes when they are many, so that they stay spread over time.
+void bury(PlaneLandmark& landmark, PlaneOutlines view) {
+  std::vector<PlaneOutlines>& views = landmark.buried_views;
+  views.push_back(std::move(view));
+  if (views.size() <= kMostBuried) return;
+  std::size_t index = 0;
+  std::erase_if(views, [&](const PlaneOutlines&) { return index++ % 2 == 0; });
 }
 
 template <class VotesOf>
@@ -137,7 +148,7 @@ void Map::merge_planes(PlaneId from, PlaneId into) {
   for (const PlaneObservation& o : moved.observations) target.add(o);
   const SE3 T_rf = keyframes_[target.reference].T_wc.inverse() * keyframes_[moved.reference].T_wc;
   for (const PlaneOutlines& seen : moved.buried_views) {
-    target.buried_views.push_back({T_rf * seen.T_rk, seen.outlines});
+    bury(target, {T_rf * seen.T_rk, seen.outlines});
   }
   for (const auto& [point, votes] : moved.buried_votes) target.buried_votes[point] += votes;
   update_outline(into);
@@ -166,10 +177,12 @@ void Map::move_planes(KeyframeId from, KeyframeId to) {
       PlaneObservation o = std::move(*seen);
       landmark.observations.erase(seen);
       const SE3 T_rw = keyframes_[landmark.reference].T_wc.inverse();
-      landmark.buried_views.push_back({T_rw * keyframes_[from].T_wc, std::move(o.outlines)});
+      bury(landmark, {T_rw * keyframes_[from].T_wc, std::move(o.outlines)});
       o.keyframe = to;
       o.normal = T_tf.rotation() * o.normal;
       o.centroid = T_tf * o.centroid;
+      std::erase_if(landmark.buried_votes,
+                    [&](const auto& v) { return !points_.contains(v.first); });
       count_votes(keyframes_[from], o,
                   [&](PointId p) -> MaskVotes& { return landmark.buried_votes[p]; });
       o.outlines.clear();

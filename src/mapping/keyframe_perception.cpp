@@ -65,6 +65,11 @@ void find_extent(const cv::Mat& mask, const Camera& camera, SeenPlane& plane) {
   }
 }
 
+cv::Rect around(const cv::Rect& box, int margin, cv::Size picture) {
+  return (box + cv::Size(2 * margin, 2 * margin) - cv::Point(margin, margin)) &
+         cv::Rect({}, picture);
+}
+
 DepthRange range_of(const cv::Mat_<float>& depth) {
   double sum = 0, squares = 0;
   int count = 0;
@@ -97,14 +102,18 @@ std::optional<SeenPlane> look_at(const DetectedPlane& detected, const Camera& ca
   if (!std::isfinite(detected.sigma_angle + detected.sigma_depth)) return std::nullopt;
   seen.sigma_angle = std::max(detected.sigma_angle, kLeastSigma);
   seen.sigma_offset = std::max(detected.sigma_depth, kLeastSigma) * seen.centroid.norm();
-  cv::Mat_<float> inside, outside;  // pixels to the mask's border
-  cv::distanceTransform(detected.mask, inside, cv::DIST_L2, 3);
-  cv::distanceTransform(detected.mask == 0, outside, cv::DIST_L2, 3);
   const double rim = kRim * std::sqrt(cv::countNonZero(detected.mask));
+  const cv::Rect near = around(cv::boundingRect(detected.mask), int(rim) + 2, detected.mask.size());
+  const cv::Mat mask = detected.mask(near);
+  cv::Mat_<float> inside, outside;  // pixels to the mask's border
+  cv::distanceTransform(mask, inside, cv::DIST_L2, 3);
+  cv::distanceTransform(mask == 0, outside, cv::DIST_L2, 3);
   for (std::uint32_t i = 0; i < pixels.size(); ++i) {
-    if (inside(pixels[i]) > 0) seen.keypoints.push_back(i);
-    if (inside(pixels[i]) > rim) seen.inner.push_back(i);
-    if (outside(pixels[i]) > 0 && outside(pixels[i]) <= rim) seen.beside.push_back(i);
+    if (!near.contains(pixels[i])) continue;
+    const cv::Point at = pixels[i] - near.tl();
+    if (inside(at) > 0) seen.keypoints.push_back(i);
+    if (inside(at) > rim) seen.inner.push_back(i);
+    if (outside(at) > 0 && outside(at) <= rim) seen.beside.push_back(i);
   }
   return seen;
 }

@@ -255,6 +255,20 @@ TEST_F(MapPlanes, WhatAKeyframeThatIsGoneSawLiesOnThePlaneWhereItIsNow) {
   }
 }
 
+TEST(MapPlanesOfLongSequences, KeepSomeOfWhatKeyframesSawThatAreGone) {
+  constexpr int kMany = 500;
+  Map map = map_of(wall_corners(), std::vector<SE3>(kMany));
+  const std::vector<KeyframeId> keyframes = testing::keyframes_of(map);
+  const SeenPlane seen = seen_from(SE3(), wall_corners());
+  const PlaneId id = map.add_plane(keyframes[0], seen);
+  for (int i = 1; i < kMany; ++i) map.observe_plane(id, keyframes[i], seen);
+  for (int i = 0; i + 1 < kMany; ++i) map.erase_keyframe(keyframes[i]);
+  map.update_outline(id);
+  EXPECT_GT(map.plane_views(id).size(), 100);
+  EXPECT_LT(map.plane_views(id).size(), 210);
+  EXPECT_THAT(map.outline_in_world(id), SizeIs(4));
+}
+
 TEST_F(MapPlanes, APlaneGoesWithAReferenceThatHasNoNeighbour) {
   const KeyframeId lonely = map.add_keyframe(testing::frame_at({}, 9), SE3());
   const PlaneId id = map.add_plane(lonely, seen_from(SE3(), wall_corners()));
