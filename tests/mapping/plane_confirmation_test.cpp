@@ -17,7 +17,6 @@ using testing::grid_on;
 using testing::indices;
 using testing::IsNearPlane;
 using testing::keyframes_of;
-using testing::kScale;
 using testing::map_of;
 using testing::perceive;
 using testing::planes_of;
@@ -40,7 +39,7 @@ TEST_F(PlaneConfirmation, WhatStandsAsItsLabelCannotStaysOutOfTheMap) {
       KeyframePerception seen = perceive(map, id, {wall_corners(), floor, board}, 36, 5, 0.04);
       const std::array<std::string, 3> labels = {"wall", "floor", label};
       for (std::size_t i : {0, 1, 2}) seen.planes[i].label = labels[i];
-      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+      show_picture(id, seen);
     }
     remove_unconfirmed_planes(map, options);
     EXPECT_THAT(planes_of(map), SizeIs(label == "table" ? 2 : 3)) << label;
@@ -67,7 +66,7 @@ TEST_F(PlaneConfirmation, ATableThatIsCalledAWallDeniesNoFloor) {
       seen.planes[0].label = "wall";
       seen.planes[1].label = "floor";
       if (++pictures <= 2) seen.planes.pop_back();
-      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+      show_picture(id, seen);
     }
     remove_unconfirmed_planes(map, options);
     EXPECT_THAT(planes_of(map), SizeIs(turn > 0.1 ? 2 : 1)) << turn;
@@ -98,7 +97,7 @@ TEST_F(PlaneConfirmation, OfABareCeilingManyPicturesAreEnoughWhereTheWorldIsManh
       for (std::size_t i : {0, 1, 2}) seen.planes[i].label = labels[i];
       seen.planes[2].keypoints = seen.planes[2].inner = indices(72, others);
       if (++shown > pictures) seen.planes.pop_back();
-      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+      show_picture(id, seen);
     }
     remove_unconfirmed_planes(map, options);
     ASSERT_THAT(planes_of(map), SizeIs(known ? 3 : 2))
@@ -179,7 +178,7 @@ TEST_F(PlaneConfirmation, WallsThatLeanStayOutOfTheMap) {
       seen.planes[0].label = label;
       seen.planes[1].label = "floor";
       if (++pictures <= 3) seen.planes.erase(seen.planes.begin());
-      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+      show_picture(id, seen);
     }
     remove_unconfirmed_planes(map, options);
     EXPECT_THAT(planes_of(map), SizeIs(before)) << label << ", " << manhattan;

@@ -30,7 +30,7 @@ TEST_F(MapPlanesOfPictures, OnePlaneInTwoPicturesIsOneLandmarkWithItsPoints) {
       seen.planes[0].keypoints.push_back(k);
       seen.planes[0].inner.push_back(k);
     }
-    map_planes(map, keyframes[i], seen, {kScale, kScale, 0.04, 0}, options);
+    show_picture(keyframes[i], seen);
   }
   ASSERT_THAT(planes_of(map), SizeIs(1));
   const PlaneId id = planes_of(map)[0];
@@ -63,9 +63,9 @@ TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewPlaneAndPredictedDepthGiveT
     freed.push_back(k);
   }
   options.few_points = 10;  // more are measured: nothing is assumed
-  EXPECT_TRUE(map_planes(map, keyframe, seen, {kScale, kScale, 0.04, 0}, options).empty());
+  EXPECT_TRUE(show_picture(keyframe, seen).empty());
   options.few_points = 100;
-  const auto assumed = map_planes(map, keyframe, seen, {kScale, kScale, 0.04, 0}, options);
+  const auto assumed = show_picture(keyframe, seen);
   EXPECT_EQ(assumed.size(), freed.size());
   for (const PointId p : assumed) {
     const MapPoint& point = map.points()[p];
@@ -86,7 +86,7 @@ TEST_F(MapPlanesOfPictures, WhereMeasuredPointsAreFewAnUnsureNormalIsThatOfTheKn
     KeyframePerception seen = perceive(map, keyframes[1], {wall_corners()}, 0, 36, 0.04);
     seen.planes[0].sigma_angle = 0.25;
     options.few_points = few_points;
-    map_planes(map, keyframes[1], seen, {kScale, kScale, 0.04, 0}, options);
+    show_picture(keyframes[1], seen);
     return planes_of(map).size();
   };
   EXPECT_EQ(landmarks_with(1000), 1u);

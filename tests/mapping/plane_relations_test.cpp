@@ -12,7 +12,6 @@ namespace {
 using testing::few_poses;
 using testing::grid_on;
 using testing::keyframes_of;
-using testing::kScale;
 using testing::map_of;
 using testing::perceive;
 using testing::planes_of;
@@ -50,7 +49,7 @@ TEST_F(PlaneRelations, LabelsBindWhatDriftHasTurned) {
       KeyframePerception seen = perceive(map, id, {wall_corners(), ramp}, 36, 5, 0.04);
       seen.planes[0].label = "wall";
       seen.planes[1].label = label;
-      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+      show_picture(id, seen);
     }
     ASSERT_THAT(planes_of(map), SizeIs(2));
     EXPECT_THAT(map.relations(), SizeIs(label == "floor" ? 1 : 0)) << label;
@@ -73,7 +72,7 @@ TEST_F(PlaneRelations, WallsThatNoPictureShowsTogetherMayBeSquareAcrossDrift) {
       for (SeenPlane& plane : seen.planes) plane.label = "wall";
       if (!together) seen.planes.erase(seen.planes.begin() + (first ? 1 : 0));
       first = !first;
-      map_planes(map, id, seen, {kScale, kScale, 0.04, 0}, options);
+      show_picture(id, seen);
     }
     ASSERT_THAT(planes_of(map), SizeIs(2));
     ASSERT_THAT(map.relations(), SizeIs(together ? 0 : 1));

@@ -52,9 +52,15 @@ class MapPlanesOfPictures : public ::testing::Test {
     for (int i = 0; i < 6; ++i) points.emplace_back(0.2 * i - 0.5, 0.1 * i - 0.2, 3);
     map = map_of(points, few_poses(3));
   }
-  void show(KeyframeId id, const std::vector<std::vector<Eigen::Vector3d>>& planes) {
-    map_planes(map, id, perceive(map, id, planes, 36, 5, 0.04), {kScale, kScale, 0.04, 0}, options);
+  // What became points of assumed depth.
+  std::vector<PointId> show_picture(KeyframeId id, const KeyframePerception& seen) {
+    const DepthScale scale = {kScale, kScale, 0.04, 0};
+    std::vector<PointId> assumed = map_planes(map, id, seen, scale, options);
     EXPECT_EQ(broken_planes(map), "");
+    return assumed;
+  }
+  void show(KeyframeId id, const std::vector<std::vector<Eigen::Vector3d>>& planes) {
+    show_picture(id, perceive(map, id, planes, 36, 5, 0.04));
   }
 
   const std::vector<Eigen::Vector3d> floor = rectangle({-1, 1, 2.7}, {2, 0, 0}, {0, 0, 1.2});
