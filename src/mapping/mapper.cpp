@@ -90,8 +90,7 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   align_points(map_, current_);
   const int missed = find_missed_points(map_, current_);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused, {} missed", keyframe.sequence,
-                keyframe.timestamp(), map_.tracked_points(current_), created.size(), fused,
-                missed);
+                keyframe.timestamp(), map_.tracked_points(current_), created.size(), fused, missed);
   publish(current_);
   return current_;
 }
