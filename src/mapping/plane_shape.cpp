@@ -130,8 +130,7 @@ class Poll {
         pictures_ >= std::ceil(kRare * quantile(pictures_, shown, 0.5));
     cv::Mat_<float> share;
     cv::divide(inside_, cv::max(all_, std::numeric_limits<float>::min()), share);
-    return common & shown &
-           (share >= std::min(kShare, kOfSurest * quantile(share, common & shown, 0.95)));
+    return common & (share >= std::min(kShare, kOfSurest * quantile(share, common, 0.95)));
   }
 
  private:
