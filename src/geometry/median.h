@@ -16,6 +16,15 @@ inline double median(std::span<double> values) {
   return *middle;
 }
 
+/// The value at a rank from 0 (least) to 1 (greatest), of two the lower one. Not for empty lists;
+/// the values change their order.
+template <class T>
+T quantile(std::vector<T>& values, double rank) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 constexpr double kSigmaOfMedian = 1.4826;  ///< σ over median absolute deviation, if normal
 
 /// σ of a normal distribution whose absolute deviations these are, by their median. Not for empty

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "cairn/geometry/median.h"
+
 namespace cairn {
 namespace {
 
@@ -229,17 +231,14 @@ std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_sh
   return result;
 }
 
-double Map::depth_quantile(KeyframeId id, double quantile) const {
+double Map::depth_quantile(KeyframeId id, double rank) const {
   const Keyframe& keyframe = keyframes_[id];
   const SE3 T_cw = keyframe.T_wc.inverse();
   std::vector<double> depths;
   for (const PointId p : keyframe.points) {
     if (p.valid()) depths.push_back((T_cw * points_[p].position).z());
   }
-  if (depths.empty()) return 0;
-  const auto nth = depths.begin() + static_cast<std::ptrdiff_t>(quantile * (depths.size() - 1));
-  std::nth_element(depths.begin(), nth, depths.end());
-  return *nth;
+  return depths.empty() ? 0 : quantile(depths, rank);
 }
 
 int Map::tracked_points(KeyframeId id) const {

@@ -203,7 +203,7 @@ class Map {
       KeyframeId id, int min_shared,
       std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// Quantile (0.5: median) of the depths of the points that a keyframe sees; 0 where it sees none.
-  double depth_quantile(KeyframeId id, double quantile) const;
+  double depth_quantile(KeyframeId id, double rank) const;
   /// How many points a keyframe sees.
   int tracked_points(KeyframeId id) const;
   /// Depths at the keypoints of a keyframe; where no point is, that of most.

@@ -6,6 +6,7 @@
 
 #include "cairn/mapping/hung_things.h"
 #include "cairn/mapping/seen_objects.h"
+#include "cairn/perception/picture_box.h"
 
 namespace cairn {
 namespace {
@@ -65,11 +66,6 @@ void find_extent(const cv::Mat& mask, const Camera& camera, SeenPlane& plane) {
   }
 }
 
-cv::Rect around(const cv::Rect& box, int margin, cv::Size picture) {
-  return (box + cv::Size(2 * margin, 2 * margin) - cv::Point(margin, margin)) &
-         cv::Rect({}, picture);
-}
-
 DepthRange range_of(const cv::Mat_<float>& depth) {
   double sum = 0, squares = 0;
   int count = 0;
@@ -103,7 +99,7 @@ std::optional<SeenPlane> look_at(const DetectedPlane& detected, const Camera& ca
   seen.sigma_angle = std::max(detected.sigma_angle, kLeastSigma);
   seen.sigma_offset = std::max(detected.sigma_depth, kLeastSigma) * seen.centroid.norm();
   const double rim = kRim * std::sqrt(cv::countNonZero(detected.mask));
-  const cv::Rect near = around(cv::boundingRect(detected.mask), int(rim) + 2, detected.mask.size());
+  const cv::Rect near = surroundings(detected.mask, int(rim) + 2);
   const cv::Mat mask = detected.mask(near);
   cv::Mat_<float> inside, outside;  // pixels to the mask's border
   cv::distanceTransform(mask, inside, cv::DIST_L2, 3);

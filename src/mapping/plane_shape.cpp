@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "cairn/geometry/median.h"
+
 namespace cairn {
 namespace {
 
@@ -78,16 +80,14 @@ class Board {
 
 // Of the values at chosen places, of which there is one at least.
 template <class T>
-T quantile(const cv::Mat_<T>& values, const cv::Mat_<unsigned char>& where, double rank) {
+T quantile_at(const cv::Mat_<T>& values, const cv::Mat_<unsigned char>& where, double rank) {
   std::vector<T> chosen;
   for (int row = 0; row < values.rows; ++row) {
     for (int column = 0; column < values.cols; ++column) {
       if (where(row, column) != 0) chosen.push_back(values(row, column));
     }
   }
-  const auto at = chosen.begin() + std::ptrdiff_t(rank * double(chosen.size() - 1));
-  std::nth_element(chosen.begin(), at, chosen.end());
-  return *at;
+  return quantile(chosen, rank);
 }
 
 // What pictures say of each place that they look at: it is in the mask, or not. Each counts by the
@@ -127,10 +127,10 @@ class Poll {
     const cv::Mat_<unsigned char> shown = pictures_ > 0;
     if (cv::countNonZero(shown) == 0) return board_.blank();
     const cv::Mat_<unsigned char> common =
-        pictures_ >= std::ceil(kRare * quantile(pictures_, shown, 0.5));
+        pictures_ >= std::ceil(kRare * quantile_at(pictures_, shown, 0.5));
     cv::Mat_<float> share;
     cv::divide(inside_, cv::max(all_, std::numeric_limits<float>::min()), share);
-    return common & (share >= std::min(kShare, kOfSurest * quantile(share, common, 0.95)));
+    return common & (share >= std::min(kShare, kOfSurest * quantile_at(share, common, 0.95)));
   }
 
  private:

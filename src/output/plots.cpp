@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cairn/geometry/error.h"
+#include "cairn/geometry/median.h"
 #include "cairn/output/atomic_file.h"
 #include "cairn/output/chart.h"
 #include "cairn/output/ellipsoid_outline.h"
@@ -73,11 +74,8 @@ Chart plan_chart(const PlotScene& scene) {
   return chart;
 }
 
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + std::ptrdiff_t(q * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+double quantile_or_zero(std::vector<double> values, double rank) {
+  return values.empty() ? 0 : quantile(values, rank);
 }
 
 // Points at infinity and wild ones would shrink the rest to a dot: kept is what lies within twice
@@ -87,7 +85,7 @@ std::vector<std::size_t> points_in_view(const PlotScene& scene) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Vector3d& x : scene.points) values.push_back(x[axis]);
-    double low = quantile(values, 0.05), high = quantile(values, 0.95);
+    double low = quantile_or_zero(values, 0.05), high = quantile_or_zero(values, 0.95);
     for (const StampedPose& pose : scene.keyframes) {
       low = std::min(low, pose.T_wc.translation()[axis]);
       high = std::max(high, pose.T_wc.translation()[axis]);
@@ -116,7 +114,7 @@ void add_points(const PlotScene& scene, Chart& chart) {
                    [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
   std::vector<double> heights;
   for (const std::size_t i : kept) heights.push_back(height(i));
-  const double low = quantile(heights, 0.02), high = quantile(heights, 0.98);
+  const double low = quantile_or_zero(heights, 0.02), high = quantile_or_zero(heights, 0.98);
   const bool by_height = scene.point_colours.size() != scene.points.size();
   ChartSeries dots{"", {}, colours::kTruth, false, kept.size() > 20000 ? 1.4 : 2.4, {}, false};
   for (const std::size_t i : kept) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "cairn/perception/picture_box.h"
+
 namespace cairn {
 namespace {
 
@@ -137,10 +139,7 @@ cv::Mat ragged_mask(const cv::Mat& mask, const PerceptionNoise::Masks& noise,
   if (displacement < 0.1) return mask.clone();
   constexpr int kNodes = 16;  // along each side of the mask
   const int margin = int(std::ceil(3 * displacement)) + 1;
-  const cv::Rect box = cv::boundingRect(mask);
-  const cv::Rect part =
-      cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-      cv::Rect({}, mask.size());
+  const cv::Rect part = surroundings(mask, margin);
   // Signed distance to the border in pixels, positive inside; the border is between two pixels,
   // each half a pixel away. The border of the picture is none.
   cv::Mat inside, outside, half;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cairn/geometry/median.h"
 #include "cairn/mapping/plane_shape.h"
 
 namespace cairn {
@@ -91,14 +92,9 @@ ReprojectionError reprojection_error(const Map& map) {
   ReprojectionError result;
   result.observations = errors.size();
   if (errors.empty()) return result;
-  const auto quantile = [&](double q) {
-    const auto nth = errors.begin() + static_cast<std::ptrdiff_t>(q * double(errors.size() - 1));
-    std::nth_element(errors.begin(), nth, errors.end());
-    return *nth;
-  };
-  result.median_px = quantile(0.5);
-  result.p75_px = quantile(0.75);
-  result.p95_px = quantile(0.95);
+  result.median_px = quantile(errors, 0.5);
+  result.p75_px = quantile(errors, 0.75);
+  result.p95_px = quantile(errors, 0.95);
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "map/flat_map.h"
 
 namespace cairn {
@@ -110,6 +112,27 @@ TEST(PlaneShape, KeepsWhatOthersDoNotLookAt) {
   SeenWall wall(poses);
   for (std::size_t i = 0; i < 12; ++i) wall.see(wall.keyframes[i], Parts{i < 3 ? left : right});
   EXPECT_NEAR(area(wall.shape()), 14, 0.5);
+}
+
+// Those that look elsewhere do not deny it.
+TEST(PlaneShape, LeavesOutWhatASinglePictureShowsBesideAllOthers) {
+  std::vector<SE3> poses(12, SE3(so3_exp(Eigen::Vector3d(0, 0.5, 0)), Eigen::Vector3d::Zero()));
+  poses[0] = SE3(so3_exp(Eigen::Vector3d(0, -0.5, 0)), Eigen::Vector3d::Zero());
+  SeenWall wall(poses);
+  const Polygon left = rectangle({-2, -1, 4}, {1.7, 0, 0}, {0, 2, 0});
+  const Polygon right = rectangle({0.3, -1, 4}, {3.2, 0, 0}, {0, 2, 0});
+  for (std::size_t i = 0; i < 12; ++i) wall.see(wall.keyframes[i], Parts{i == 0 ? left : right});
+  EXPECT_NEAR(area(wall.shape()), 6.4, 0.3);
+}
+
+TEST(PlaneShape, OfWhatEachPictureShowsAThirdIsAllOfIt) {
+  SeenWall wall;
+  const Polygon middle = rectangle({-0.5, -1, 4}, {1, 0, 0}, {0, 2, 0});
+  const Polygon left = rectangle({-1.5, -1, 4}, {1, 0, 0}, {0, 2, 0});
+  const Polygon right = rectangle({0.5, -1, 4}, {1, 0, 0}, {0, 2, 0});
+  const std::array<Polygon, 3> thirds = {left, middle, right};
+  for (std::size_t i = 0; i < 12; ++i) wall.see(wall.keyframes[i], Parts{thirds[i % 3]});
+  EXPECT_NEAR(area(wall.shape()), 6, 0.2);
 }
 
 TEST(PlaneShape, GoesOnBehindWhatCutsItInTwo) {
