@@ -113,6 +113,7 @@ void add_points(const PlotScene& scene, Chart& chart) {
   std::stable_sort(kept.begin(), kept.end(),
                    [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
   std::vector<double> heights;
+  heights.reserve(kept.size());
   for (const std::size_t i : kept) heights.push_back(height(i));
   const double low = quantile_or_zero(heights, 0.02), high = quantile_or_zero(heights, 0.98);
   const bool by_height = scene.point_colours.size() != scene.points.size();
