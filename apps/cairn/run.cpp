@@ -108,6 +108,16 @@ void report_problems(const Playback& playback, Progress& progress) {
   }
 }
 
+// In realtime the networks see to some keyframes only now.
+SlamResult finish(Slam& slam, const Arguments& arguments) {
+  std::optional<Progress> progress;
+  return slam.finish([&](std::size_t, std::size_t all) {
+    if (!progress) progress.emplace(!arguments.no_progress, all);
+    progress->show("looking at keyframes that were passed over");
+    return !interrupted();
+  });
+}
+
 int run(const Arguments& arguments, const std::string& typed) {
   check_available(arguments);
   RunDescription description;
@@ -139,7 +149,7 @@ int run(const Arguments& arguments, const std::string& typed) {
   report_problems(playback, progress);
   if (playback.interrupted)
     progress.note("interrupted; finishing the map and writing what there is");
-  const SlamResult result = slam.finish();
+  const SlamResult result = finish(slam, arguments);
   recorder.write(slam.frames(), result, playback);
   print_outcome(description, slam.frames(), result);
   if (playback.interrupted) return kInterrupted;

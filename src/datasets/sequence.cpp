@@ -12,6 +12,7 @@
 #include "cairn/datasets/picture_file.h"
 #include "cairn/datasets/prefetching_source.h"
 #include "cairn/geometry/error.h"
+#include "cairn/geometry/median.h"
 
 namespace cairn {
 namespace {
@@ -114,9 +115,7 @@ double fps_of(const std::vector<ListedPicture>& pictures) {
     if (std::isfinite(step) && step > 1e-4) steps.push_back(step);
   }
   if (steps.empty()) return 30;
-  const auto middle = steps.begin() + std::ptrdiff_t(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1 / *middle;
+  return 1 / median(steps);
 }
 
 std::unique_ptr<FrameSource> safe_source(std::unique_ptr<FrameSource> source, const cv::Size& size,

@@ -5,7 +5,8 @@
 namespace cairn {
 
 std::vector<FoundObject> read_found_objects(const std::filesystem::path& file) {
-  const auto json = CheckedJson::read(file, "the objects of a run, which `cairn run` writes");
+  const auto json =
+      CheckedJson::read(file, "the objects of a run, which `cairn run` writes with po and full");
   std::vector<FoundObject> objects;
   for (const CheckedJson& value : json.at("objects").list()) {
     FoundObject object;
@@ -20,7 +21,8 @@ std::vector<FoundObject> read_found_objects(const std::filesystem::path& file) {
 }
 
 std::vector<FoundPlane> read_found_planes(const std::filesystem::path& file) {
-  const auto json = CheckedJson::read(file, "the planes of a run, which `cairn run` writes");
+  const auto json = CheckedJson::read(
+      file, "the planes of a run, which `cairn run` writes with pp, ppm and full");
   std::vector<FoundPlane> planes;
   for (const CheckedJson& value : json.at("planes").list()) {
     FoundPlane plane;

@@ -21,7 +21,7 @@ void Map::observe_object(ObjectId id, KeyframeId keyframe, const SeenObject& see
   landmark.votes[seen.class_name] += seen.score;
   if (seen.thing) ++landmark.things[*seen.thing];
   landmark.sightings += landmark.sightings == 0 || k.sequence != landmark.last_seen;
-  landmark.last_seen = std::max(landmark.last_seen, k.sequence);
+  landmark.last_seen = k.sequence;
   landmark.last_time = std::max(landmark.last_time, k.timestamp());
   landmark.missed = std::max(landmark.missed - 1, 0);
   if (landmark.seen_by(keyframe)) return;

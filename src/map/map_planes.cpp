@@ -59,7 +59,7 @@ void Map::observe_plane(PlaneId id, KeyframeId keyframe, const SeenPlane& seen) 
   landmark.votes[seen.label] += seen.score;
   const std::uint32_t now = keyframes_[keyframe].sequence;
   landmark.sightings += landmark.sightings == 0 || now != landmark.last_seen;
-  landmark.last_seen = std::max(landmark.last_seen, now);
+  landmark.last_seen = now;
   landmark.add(observation_of(keyframe, seen));
   update_outline(id);
 }

@@ -48,7 +48,7 @@ struct ObjectLandmark {
   std::vector<ObjectObservation> observations = {};  ///< one a picture, in order of arrival
   std::vector<PointId> points = {};                  ///< of the map, inside of it
   std::uint32_t sightings = 0;                       ///< pictures that showed it, ever
-  std::uint32_t last_seen = 0;                       ///< sequence number of the newest of them
+  std::uint32_t last_seen = 0;                       ///< sequence number of the last of them to come
   double last_time = 0;                              ///< seconds: when that was
   int missed = 0;  ///< pictures lately that should have shown it and did not, less those that did
   /// It has a place and a size of its own: only then do factors hold it, and it them. Until then it

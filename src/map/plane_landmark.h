@@ -72,7 +72,7 @@ struct PlaneLandmark {
   std::vector<PlaneOutlines> buried_views = {};
   std::vector<Eigen::Vector3d> outline = {};  ///< convex hull, in the reference's frame
   std::uint32_t sightings = 0;                ///< pictures that showed it, ever
-  std::uint32_t last_seen = 0;                ///< sequence number of the newest of them
+  std::uint32_t last_seen = 0;                ///< sequence number of the last of them to come
   // Evidence, kept by mapping.
   double sigma_tilt = 3.2;  ///< of its normal, radians
   /// Points in its masks whose depth is sure enough to tell; those before it count half.

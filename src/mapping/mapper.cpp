@@ -105,15 +105,22 @@ void Mapper::measure(PointId id) {
   point.assumed = cosine > std::cos(options_.min_parallax_deg * std::numbers::pi / 180);
 }
 
-void Mapper::join(const KeyframePerception& seen) {
-  KeyframeId keyframe;
+KeyframeId Mapper::keyframe_of(const Frame& frame) const {
+  KeyframeId found;
   map_.keyframes().for_each([&](KeyframeId id, const Keyframe& k) {
-    if (k.timestamp() == seen.frame->timestamp) keyframe = id;
+    if (k.timestamp() == frame.timestamp) found = id;
   });
+  return found;
+}
+
+void Mapper::join(const KeyframePerception& seen) {
+  const KeyframeId keyframe = keyframe_of(*seen.frame);
   if (!keyframe.valid()) return;
   times_.perception.push_back(seen.milliseconds);
   join_planes(keyframe, seen);
   join_objects(keyframe, seen);
+  if (keyframe != map_.newest())
+    cull_recent_points();  // the camera has gone on from what it assumed
   publish(current_);
 }
 

@@ -57,6 +57,8 @@ class Mapper {
   /// What perception says of a keyframe, which may be culled by now: then nothing happens.
   /// Publishes.
   void join(const KeyframePerception& seen);
+  /// The keyframe that a picture became; invalid where it is none, or has been culled.
+  KeyframeId keyframe_of(const Frame& frame) const;
   /// Local adjustment and culling after an insertion; publishes. Returns early when `abort` is set.
   void adjust(const std::atomic<bool>* abort);
   /// The end: fusion over the whole map, then full adjustment. `motions`: of keyframes, as all

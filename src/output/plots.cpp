@@ -36,8 +36,7 @@ double longest_step(const Trajectory& trajectory) {
     steps.push_back(trajectory[i].timestamp - trajectory[i - 1].timestamp);
   }
   if (steps.empty()) return 0;
-  std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
-  return std::max(5 * steps[steps.size() / 2], 0.25);
+  return std::max(5 * median(steps), 0.25);
 }
 
 template <typename ToPoint>

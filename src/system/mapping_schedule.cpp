@@ -4,6 +4,9 @@ namespace cairn {
 namespace {
 
 constexpr int kCandidates = 8;  // keyframes that a relocalisation looks at
+// Keyframes that may come before the map is adjusted again: a camera in trouble asks for one with
+// every frame, and would go on from poses that nothing has adjusted.
+constexpr int kMostUnadjusted = 3;
 
 }  // namespace
 
@@ -32,7 +35,7 @@ void MappingSchedule::insert(KeyframeCandidate candidate, Sighting sighting) {
 }
 
 void MappingSchedule::join(KeyframePerception perception) {
-  if (!threaded_) {
+  if (!thread_.joinable()) {  // lockstep, or the thread has ended
     mapper_->join(perception);
     publish();
     return;
@@ -75,10 +78,9 @@ bool MappingSchedule::relocalizing() const {
   return question_.has_value();
 }
 
-bool MappingSchedule::idle() const {
-  if (!threaded_) return true;
+int MappingSchedule::backlog() const {
   const std::lock_guard lock(mutex_);
-  return insertions_.empty() && !busy_;
+  return int(insertions_.size()) + int(busy_);
 }
 
 std::shared_ptr<const MapView> MappingSchedule::view() const {
@@ -126,7 +128,9 @@ void MappingSchedule::run_question(const Question& question) {
 
 void MappingSchedule::loop() {
   bool adjustment_due = false;
+  int unadjusted = 0;  // keyframes since an adjustment was not left early
   while (true) {
+    const bool overdue = unadjusted >= kMostUnadjusted;
     std::optional<Insertion> insertion;
     std::optional<Question> question;
     std::optional<KeyframePerception> perception;
@@ -139,12 +143,16 @@ void MappingSchedule::loop() {
       if (stopping_ && insertions_.empty() && perceptions_.empty() && !adjustment_due) return;
       busy_ = true;
       abort_ = false;
-      if (!insertions_.empty()) {
+      // Those of keyframes that still wait come after them.
+      const bool seen_earlier =
+          !perceptions_.empty() && (insertions_.empty() || perceptions_.front().frame->timestamp <
+                                                               insertions_.front().timestamp());
+      if (!insertions_.empty() && !overdue && !(seen_earlier && unadjusted == 0)) {
         insertion = std::move(insertions_.front());
         insertions_.pop_front();
       } else if (question_ && !stopping_) {
         question = *question_;
-      } else if (!perceptions_.empty()) {
+      } else if (seen_earlier && !overdue) {
         perception = std::move(perceptions_.front());
         perceptions_.pop_front();
       }
@@ -152,15 +160,17 @@ void MappingSchedule::loop() {
     if (insertion) {
       run_insertion(*insertion);
       adjustment_due = true;
+      ++unadjusted;
     } else if (question) {
       run_question(*question);
     } else if (perception) {
       mapper_->join(*perception);
       publish();
     } else if (adjustment_due) {
-      mapper_->adjust(&abort_);
+      mapper_->adjust(overdue ? nullptr : &abort_);
       publish();
       adjustment_due = false;
+      if (overdue || !abort_) unadjusted = 0;
     }
     const std::lock_guard lock(mutex_);
     busy_ = false;

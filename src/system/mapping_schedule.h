@@ -28,7 +28,7 @@ class MappingSchedule {
 
   /// A new keyframe, with what was seen since the last one.
   void insert(KeyframeCandidate candidate, Sighting sighting);
-  /// What perception says of a keyframe that was handed over before.
+  /// What perception says of a keyframe that was handed over before; once stopped within the call.
   void join(KeyframePerception perception);
   /// All is said of the newest keyframe. In lockstep the map is adjusted now, in realtime it is
   /// when there is time.
@@ -44,7 +44,8 @@ class MappingSchedule {
   std::optional<Answer> take_relocalization();
   bool relocalizing() const;
 
-  bool idle() const;
+  /// Keyframes that wait, and one more while the mapper is busy.
+  int backlog() const;
   std::shared_ptr<const MapView> view() const;
 
   /// Waits until all is done; the mapper is then the caller's.
@@ -54,6 +55,7 @@ class MappingSchedule {
   struct Insertion {
     KeyframeCandidate candidate;
     Sighting sighting;
+    double timestamp() const { return candidate.frame->timestamp; }
   };
   struct Question {
     std::shared_ptr<const Frame> frame;

@@ -1,8 +1,17 @@
 #include "cairn/system/perception_worker.h"
 
+#include <cstddef>
+
 #include "cairn/map/stopwatch.h"
 
 namespace cairn {
+namespace {
+
+constexpr std::size_t kMostPassedOver = 100'000'000;  // bytes of pictures
+
+std::size_t bytes_of(const cv::Mat& picture) { return picture.total() * picture.elemSize(); }
+
+}  // namespace
 
 PerceptionWorker::PerceptionWorker(std::unique_ptr<PlaneDetector> detector, const Camera& camera,
                                    const View& view, bool threaded,
@@ -26,6 +35,7 @@ void PerceptionWorker::look(std::shared_ptr<const Frame> frame, const Perception
     // The caller may write its next picture into the same memory.
     Task task{std::move(frame), {input.bgr.clone(), input.depth.clone(), input.timestamp}};
     const std::lock_guard lock(mutex_);
+    if (waiting_) pass_over(std::move(*waiting_));
     waiting_ = std::move(task);
   }
   wake_.notify_one();
@@ -59,6 +69,28 @@ void PerceptionWorker::stop() {
   }
   wake_.notify_one();
   thread_.join();
+  if (waiting_) pass_over(*std::exchange(waiting_, std::nullopt));
+}
+
+void PerceptionWorker::pass_over(Task task) {
+  const std::size_t each = bytes_of(task.input.bgr) + bytes_of(task.input.depth);
+  passed_over_.push_back(std::move(task));
+  if (passed_over_.size() * each <= kMostPassedOver) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < passed_over_.size(); i += 2) {
+    std::swap(passed_over_[kept++], passed_over_[i]);
+  }
+  passed_over_.resize(kept);
+}
+
+void PerceptionWorker::catch_up(const std::function<bool(const Frame&)>& wanted,
+                                const std::function<bool(std::size_t, std::size_t)>& go_on) {
+  std::vector<Task> tasks = std::exchange(passed_over_, {});
+  std::erase_if(tasks, [&](const Task& task) { return !wanted(*task.frame); });
+  for (std::size_t i = 0; i < tasks.size() && go_on(i, tasks.size()); ++i) {
+    DetectedFrame detected;
+    deliver_(see(std::exchange(tasks[i], {}), detected));
+  }
 }
 
 KeyframePerception PerceptionWorker::see(const Task& task, DetectedFrame& detected) {

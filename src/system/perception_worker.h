@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "cairn/mapping/keyframe_perception.h"
 #include "cairn/perception/plane_detector.h"
@@ -15,8 +16,8 @@ namespace cairn {
 
 /// Looks at the pictures of keyframes: at once, within the call (lockstep), or on a thread of its
 /// own (realtime), where a picture that comes while another still waits takes its place: no one
-/// waits, and the newest is looked at. Only who asks for `planes_now` or `objects_now` gets them
-/// within the call.
+/// waits, and the newest is looked at. What was passed over is kept for `catch_up`. Only who asks
+/// for `planes_now` or `objects_now` gets them within the call.
 class PerceptionWorker {
  public:
   /// `deliver` is called with each result, in realtime from the worker's thread, or from the
@@ -35,8 +36,13 @@ class PerceptionWorker {
                                       const PerceptionInput& input);
   /// What was found within the last call since it was last asked, with its masks.
   DetectedFrame take_found() { return std::exchange(found_, {}); }
-  /// Waits for what is being looked at; nothing is delivered afterwards.
+  /// Waits for what is being looked at; only `catch_up` delivers afterwards.
   void stop();
+  /// Once stopped: looks, within the call, at pictures that were passed over, in order of time.
+  /// Of many (100 MB) every other one is kept, so that they are from everywhere. `wanted`: is it
+  /// still, of the frame? `go_on(done, all)` is asked before each; false leaves the rest.
+  void catch_up(const std::function<bool(const Frame&)>& wanted,
+                const std::function<bool(std::size_t, std::size_t)>& go_on);
 
  private:
   struct Task {
@@ -44,6 +50,8 @@ class PerceptionWorker {
     PerceptionInput input;
   };
   void loop();
+  // With the mutex held.
+  void pass_over(Task task);
   // Into `seen_now_`; false while another picture is looked at.
   bool see_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
   // With the detector's mutex held, once threaded; what it says goes to `detected`.
@@ -60,6 +68,7 @@ class PerceptionWorker {
   std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;
   std::optional<Task> waiting_;
+  std::vector<Task> passed_over_;
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -76,6 +76,7 @@ struct Slam::Implementation {
   std::shared_ptr<const Picture> picture_to_align() const;
   void hand_over_keyframe();
   void deliver(KeyframePerception seen);
+  void catch_up(const GoOn& go_on);
   void restart();
   std::vector<FrameResult::Feature> seen_features(const Frame& frame, FrameState state) const;
 
@@ -174,7 +175,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
     record.state = FrameState::kTracked;
     result.T_wc = s.tracker.last().T_wc;
     s.log_tracked();
-    if (!s.lost && s.tracker.wants_keyframe(s.mapping->idle())) {
+    if (!s.lost && s.tracker.wants_keyframe(s.mapping->backlog())) {
       record.keyframe = true;
       const Stopwatch of_mapping;
       s.hand_over_keyframe();
@@ -280,6 +281,15 @@ void Slam::Implementation::deliver(KeyframePerception seen) {
   if (mapping) mapping->join(std::move(seen));
 }
 
+// What realtime had no time to look at, of the keyframes that are left.
+void Slam::Implementation::catch_up(const GoOn& go_on) {
+  perception->stop();
+  const Mapper& mapper = mapping->stop();
+  perception->catch_up(
+      [&](const Frame& frame) { return mapper.keyframe_of(frame).valid(); },
+      [&](std::size_t done, std::size_t all) { return !go_on || go_on(done, all); });
+}
+
 void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
   record.state = FrameState::kLost;
   if (!lost) {
@@ -355,7 +365,7 @@ void Slam::Implementation::restart() {
   ++restarts;
 }
 
-SlamResult Slam::finish() {
+SlamResult Slam::finish(const GoOn& go_on) {
   Implementation& s = *implementation_;
   SlamResult result;
   result.gaps = s.gaps;
@@ -364,7 +374,7 @@ SlamResult Slam::finish() {
     result.refusal = s.initializer.refusal();
     return result;
   }
-  if (s.perception) s.perception->stop();
+  if (s.perception) s.catch_up(go_on);
   Mapper& mapper = s.mapping->stop();
   const AdjustmentSummary summary =
       mapper.finish(nullptr, s.log.keyframe_motions(mapper.map(), mapper.buried()));

@@ -3,6 +3,8 @@
 // The system room: the facade, the options, and the two schedules. It wires the stages together and
 // owns their threads; it knows no files and no command line.
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -90,8 +92,12 @@ class Slam {
   void drop(double timestamp);
   /// A frame that cannot be used (broken picture, wrong size, time going back); it is counted.
   void skip(double timestamp);
-  /// Waits for the mapper, runs the full adjustment, and hands out everything.
-  SlamResult finish();
+  /// Waits for the mapper, runs the full adjustment, and hands out everything. In realtime the
+  /// detector may have been too slow for all keyframes: it looks at the others before that.
+  /// `go_on`, if there is one, is asked before each of these, how many are done, and of how many;
+  /// false leaves the rest.
+  using GoOn = std::function<bool(std::size_t done, std::size_t all)>;
+  SlamResult finish(const GoOn& go_on = {});
 
   /// The newest state of the local map, for viewers; immutable, so keep it as long as you like.
   /// Null while there is no map.

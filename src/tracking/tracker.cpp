@@ -20,6 +20,7 @@ constexpr double kTurnAcceleration = 30;  // radians a second squared
 constexpr double kLeastStep = 1e-3;       // seconds between frames
 constexpr double kLeastDepth = 1e-3;      // of a scene
 constexpr double kFrontalCosine = 0.998;
+constexpr int kMostWaiting = 3;  // keyframes
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth
 constexpr double kStillRadians = 0.001;
@@ -327,7 +328,7 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc, bool unroll) {
   return summary.usable ? summary.inliers : 0;
 }
 
-bool Tracker::wants_keyframe(bool mapper_idle) const {
+bool Tracker::wants_keyframe(int before_it) const {
   const bool moved = last_.T_rc.translation().norm() > kStillShare * map_->median_depth ||
                      Eigen::AngleAxisd(last_.T_rc.rotation()).angle() > kStillRadians;
   const bool long_ago = last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
@@ -336,7 +337,10 @@ bool Tracker::wants_keyframe(bool mapper_idle) const {
   const bool starving = sees_planes() && 2 * last_.inliers < int(last_.frame->size());
   const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
   if (last_.inliers < 15 && !sees_planes()) return false;
-  return (mapper_idle && moved && (weak || long_ago || starving)) || very_weak;
+  // A mapper that is behind would only fall farther behind: its newest map shows an ever older
+  // place, where ever less is found, and each frame would be worth a keyframe.
+  return (before_it == 0 && moved && (weak || long_ago || starving)) ||
+         (before_it < kMostWaiting && very_weak);
 }
 
 }  // namespace cairn

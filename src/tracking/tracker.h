@@ -61,8 +61,8 @@ class Tracker {
   void start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
                   const std::shared_ptr<const MapView>& view, const std::vector<PointId>& points);
 
-  /// Is the frame that was tracked last worth a keyframe? `mapper_idle`: it could be taken at once.
-  bool wants_keyframe(bool mapper_idle) const;
+  /// Is the frame that was tracked last worth a keyframe, that `before_it` others go before?
+  bool wants_keyframe(int before_it) const;
   /// The last frame has become a keyframe.
   void keyframe_made();
 

@@ -39,7 +39,7 @@ TEST_P(MappingScheduleTest, MakesAMapOfAllKeyframesBeforeItStops) {
   EXPECT_EQ(testing::broken_links(map), "");
   EXPECT_LT(testing::errors_of(map, world).camera, 0.15);
   EXPECT_EQ(schedule->view()->version, mapper.view()->version) << "the last view is public";
-  EXPECT_TRUE(schedule->idle());
+  EXPECT_EQ(schedule->backlog(), 0);
 }
 
 TEST_P(MappingScheduleTest, PublishesANewerViewAfterAKeyframe) {

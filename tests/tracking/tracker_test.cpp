@@ -251,7 +251,7 @@ TEST_F(TrackerTest, WantsNoKeyframeWhileTheCameraStandsStillHoweverLong) {
     auto again = std::make_shared<Frame>(picture);
     again->timestamp = picture.timestamp + i * kFrame;
     ASSERT_NE(track(again), nullptr) << i;
-    EXPECT_FALSE(tracker.wants_keyframe(true)) << i;
+    EXPECT_FALSE(tracker.wants_keyframe(0)) << i;
   }
 }
 
@@ -261,9 +261,22 @@ TEST_F(TrackerTest, WantsAKeyframeWhenItSeesLittleOfTheReferenceButNotOnceItHasO
   int wanted = -1;
   for (int i = 2; i <= 60 && wanted < 0; ++i) {
     ASSERT_NE(track(at(kStep * i)), nullptr) << i;
-    if (tracker.wants_keyframe(true)) wanted = i;
+    if (tracker.wants_keyframe(0)) wanted = i;
   }
   EXPECT_GT(wanted, 0) << "never, though the camera went far";
+  EXPECT_FALSE(tracker.wants_keyframe(1)) << "it is not urgent, and the mapper has work";
+}
+
+TEST_F(TrackerTest, WantsAKeyframeOfAMapperThatIsBusyButNotBehindWhenHardlyAnythingIsLeft) {
+  ASSERT_NE(track(at(kStep)), nullptr);
+  tracker.keyframe_made();
+  bool urgent = false;
+  for (int i = 2; i <= 200 && !urgent; ++i) {
+    if (track(at(kStep * i)) == nullptr) break;
+    urgent = tracker.wants_keyframe(1);
+    EXPECT_FALSE(tracker.wants_keyframe(3)) << i;
+  }
+  EXPECT_TRUE(urgent);
 }
 
 }  // namespace
