@@ -42,6 +42,13 @@ TEST_P(MappingScheduleTest, MakesAMapOfAllKeyframesBeforeItStops) {
   EXPECT_EQ(schedule->backlog(), 0);
 }
 
+// What a camera in trouble asks for: more keyframes than the mapper gets done.
+TEST_P(MappingScheduleTest, AdjustsTheMapEveryThirdKeyframeHoweverManyWait) {
+  constexpr int kMany = 12;
+  for (int i = 0; i < kMany; ++i) insert(0.5 + 0.05 * i);
+  EXPECT_GE(schedule->stop().times().adjustment.size(), kMany / 3u);
+}
+
 TEST_P(MappingScheduleTest, PublishesANewerViewAfterAKeyframe) {
   const auto before = schedule->view();
   insert(0.5);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -28,18 +29,22 @@ const std::vector<cv::Mat>& pictures() {
   return pictures;
 }
 
-// Knows the scene: its depth and its floor, and who asked.
+// Knows the scene: its depth and its floor, and who asked, and when.
 class KnowingDetector : public PlaneDetector {
  public:
   struct Record {
+    std::chrono::milliseconds delay{0};
     std::mutex mutex;
     std::set<std::thread::id> threads;
+    std::set<double> times;
   };
   explicit KnowingDetector(Record& record) : record_(record) {}
 
   DetectedFrame detect(const PerceptionInput& input) override {
     const std::lock_guard lock(record_.mutex);
     record_.threads.insert(std::this_thread::get_id());
+    EXPECT_TRUE(record_.times.insert(input.timestamp).second) << "looked at twice";
+    std::this_thread::sleep_for(record_.delay);
     const SE3 T_wc = scene().T_wc(input.timestamp);
     DetectedFrame frame;
     frame.timestamp = input.timestamp;
@@ -137,11 +142,33 @@ TEST(Slam, InRealtimePicturesAreLookedAtOnAThreadOfTheirOwn) {
   Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
   std::size_t masks = 0;
   for (int i = 0; i < kFrames; ++i) masks += slam.process(pictures()[i], i / 30.0).planes.size();
-  const SlamResult result = slam.finish();
+  const SlamResult result = slam.finish([](std::size_t, std::size_t) { return false; });
   EXPECT_GT(result.trajectory.size(), kFrames / 2u) << result.refusal;
   ASSERT_EQ(record.threads.size(), 1u);
   EXPECT_NE(*record.threads.begin(), std::this_thread::get_id());
   EXPECT_EQ(masks, 0u) << "they are of pictures that are gone";
+}
+
+TEST(Slam, InRealtimeKeyframesThatADetectorHadNoTimeForAreLookedAtInTheEnd) {
+  KnowingDetector::Record record;
+  record.delay = std::chrono::milliseconds(100);
+  Options options;
+  options.pace = Pace::kRealtime;
+  Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
+  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  std::size_t asked = 0, all = 0;
+  const SlamResult result = slam.finish([&](std::size_t done, std::size_t of) {
+    EXPECT_EQ(done, asked++);
+    all = of;
+    return true;
+  });
+  EXPECT_GT(all, 0u);
+  EXPECT_EQ(asked, all);
+  for (const StampedPose& keyframe : result.keyframes) {
+    if (keyframe.timestamp > result.keyframes.front().timestamp) {
+      EXPECT_TRUE(record.times.contains(keyframe.timestamp)) << keyframe.timestamp;
+    }
+  }
 }
 
 TEST(Slam, InLockstepADetectorThatKnowsGivesTheFloorAndMetres) {
