@@ -119,8 +119,8 @@ void Mapper::join(const KeyframePerception& seen) {
   times_.perception.push_back(seen.milliseconds);
   join_planes(keyframe, seen);
   join_objects(keyframe, seen);
-  if (keyframe != map_.newest())
-    cull_recent_points();  // the camera has gone on from what it assumed
+  // The camera has gone on from the points that were assumed there.
+  if (keyframe != map_.newest()) cull_recent_points();
   publish(current_);
 }
 

@@ -38,9 +38,9 @@ class PerceptionWorker {
   DetectedFrame take_found() { return std::exchange(found_, {}); }
   /// Waits for what is being looked at; only `catch_up` delivers afterwards.
   void stop();
-  /// Once stopped: looks, within the call, at pictures that were passed over, in order of time.
-  /// Of many (100 MB) every other one is kept, so that they are from everywhere. `wanted`: is it
-  /// still, of the frame? `go_on(done, all)` is asked before each; false leaves the rest.
+  /// Once stopped: looks, within the call, at pictures that were passed over and whose frames are
+  /// still wanted, in order of time. (Whenever they are 100 MB, every other one goes.)
+  /// `go_on(done, all)` is asked before each; false leaves the rest.
   void catch_up(const std::function<bool(const Frame&)>& wanted,
                 const std::function<bool(std::size_t, std::size_t)>& go_on);
 
