@@ -48,8 +48,8 @@ struct ObjectLandmark {
   std::vector<ObjectObservation> observations = {};  ///< one a picture, in order of arrival
   std::vector<PointId> points = {};                  ///< of the map, inside of it
   std::uint32_t sightings = 0;                       ///< pictures that showed it, ever
-  std::uint32_t last_seen = 0;                       ///< sequence number of the last of them to come
-  double last_time = 0;                              ///< seconds: when that was
+  std::uint32_t last_seen = 0;  ///< sequence number of the last of them to come
+  double last_time = 0;         ///< seconds: when that was
   int missed = 0;  ///< pictures lately that should have shown it and did not, less those that did
   /// It has a place and a size of its own: only then do factors hold it, and it them. Until then it
   /// is a guess, which only says what to look for.

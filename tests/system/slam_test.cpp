@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <future>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -33,7 +33,7 @@ const std::vector<cv::Mat>& pictures() {
 class KnowingDetector : public PlaneDetector {
  public:
   struct Record {
-    std::chrono::milliseconds delay{0};
+    std::shared_future<void> may_look;  // waits for it, if there is one
     std::mutex mutex;
     std::set<std::thread::id> threads;
     std::set<double> times;
@@ -44,7 +44,7 @@ class KnowingDetector : public PlaneDetector {
     const std::lock_guard lock(record_.mutex);
     record_.threads.insert(std::this_thread::get_id());
     EXPECT_TRUE(record_.times.insert(input.timestamp).second) << "looked at twice";
-    std::this_thread::sleep_for(record_.delay);
+    if (record_.may_look.valid()) record_.may_look.wait();
     const SE3 T_wc = scene().T_wc(input.timestamp);
     DetectedFrame frame;
     frame.timestamp = input.timestamp;
@@ -151,11 +151,13 @@ TEST(Slam, InRealtimePicturesAreLookedAtOnAThreadOfTheirOwn) {
 
 TEST(Slam, InRealtimeKeyframesThatADetectorHadNoTimeForAreLookedAtInTheEnd) {
   KnowingDetector::Record record;
-  record.delay = std::chrono::milliseconds(100);
+  std::promise<void> sequence_ended;
+  record.may_look = sequence_ended.get_future().share();
   Options options;
   options.pace = Pace::kRealtime;
   Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
   for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  sequence_ended.set_value();
   std::size_t asked = 0, all = 0;
   const SlamResult result = slam.finish([&](std::size_t done, std::size_t of) {
     EXPECT_EQ(done, asked++);
