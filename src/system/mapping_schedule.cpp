@@ -11,18 +11,15 @@ constexpr int kMostUnadjusted = 3;
 }  // namespace
 
 MappingSchedule::MappingSchedule(std::unique_ptr<Mapper> mapper, const Options& options)
-    : mapper_(std::move(mapper)),
-      tracking_(options.tracking),
-      threaded_(options.pace == Pace::kRealtime),
-      view_(mapper_->view()) {
-  if (threaded_) thread_ = std::thread([this] { loop(); });
+    : mapper_(std::move(mapper)), tracking_(options.tracking), view_(mapper_->view()) {
+  if (options.pace == Pace::kRealtime) thread_ = std::thread([this] { loop(); });
 }
 
 MappingSchedule::~MappingSchedule() { stop(); }
 
 void MappingSchedule::insert(KeyframeCandidate candidate, Sighting sighting) {
   Insertion insertion{std::move(candidate), std::move(sighting)};
-  if (!threaded_) {
+  if (!thread_.joinable()) {
     run_insertion(insertion);
     return;
   }
@@ -48,7 +45,7 @@ void MappingSchedule::join(KeyframePerception perception) {
 }
 
 void MappingSchedule::settle() {
-  if (threaded_) return;
+  if (thread_.joinable()) return;
   mapper_->adjust(nullptr);
   publish();
 }
@@ -56,7 +53,7 @@ void MappingSchedule::settle() {
 void MappingSchedule::relocalize(std::shared_ptr<const Frame> frame, std::uint64_t seed,
                                  std::vector<SeenObject> objects) {
   Question question{std::move(frame), seed, std::move(objects)};
-  if (!threaded_) {
+  if (!thread_.joinable()) {
     run_question(question);
     return;
   }

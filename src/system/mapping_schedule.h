@@ -70,7 +70,6 @@ class MappingSchedule {
 
   std::unique_ptr<Mapper> mapper_;
   TrackingOptions tracking_;
-  bool threaded_;
 
   mutable std::mutex mutex_;  // guards what follows; held for moments only
   std::condition_variable wake_;

@@ -76,11 +76,8 @@ void PerceptionWorker::pass_over(Task task) {
   const std::size_t each = bytes_of(task.input.bgr) + bytes_of(task.input.depth);
   passed_over_.push_back(std::move(task));
   if (passed_over_.size() * each <= kMostPassedOver) return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < passed_over_.size(); i += 2) {
-    std::swap(passed_over_[kept++], passed_over_[i]);
-  }
-  passed_over_.resize(kept);
+  std::size_t index = 0;
+  std::erase_if(passed_over_, [&](const Task&) { return index++ % 2 == 1; });
 }
 
 void PerceptionWorker::catch_up(const std::function<bool(const Frame&)>& wanted,
