@@ -255,6 +255,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
   gather_points(map, keyframe);
   const std::vector<ObjectDecision> decisions =
       associate_objects(map, id, seen.objects, options.association);
+  std::vector<ObjectId> guesses;
   for (std::size_t i = 0; i < seen.objects.size(); ++i) {
     const SeenObject& thing = seen.objects[i];
     if (decisions[i].kind == ObjectDecision::Kind::kUnclear) continue;
@@ -270,8 +271,11 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     }
     update_evidence(landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
-    if (!landmark.born) join_guesses(map, decisions[i].object, options.birth, refusals);
+    if (!landmark.born) guesses.push_back(decisions[i].object);
   }
+  // Not before all have been seen: what one picture shows twice is two things, of which none must
+  // go while its box waits.
+  for (const ObjectId guess : guesses) join_guesses(map, guess, options.birth, refusals);
   fuse_objects(map);
   let_die(map, id, options);
   if (options.supports) find_supports(map, options.max_gap);

@@ -228,6 +228,20 @@ TEST_F(MapObjectsOfPictures, TwoGuessesThatOneThingExplainsAreThatThing) {
   EXPECT_LT((map.object_in_world(cup).centre() - a_cup().centre()).norm(), 0.01);
 }
 
+TEST_F(MapObjectsOfPictures, TwoGuessesThatOnePictureShowsBothAreNotOneThing) {
+  film(24, 50);
+  options.probation = 100;
+  show_in({0, 1, 2}, a_cup());
+  ObjectLandmark& behind = map.objects()[objects_of(map)[0]];
+  behind.ellipsoid.T = SE3(behind.ellipsoid.T.rotation(), 2 * behind.ellipsoid.centre());
+  const Ellipsoid farther = map.object_in_world(objects_of(map)[0]);
+  show_in({20}, a_cup());
+  ASSERT_THAT(objects_of(map), SizeIs(2));
+  const KeyframeId both = keyframes[21];
+  show(both, {seen_thing(map, both, a_cup()), seen_thing(map, both, farther)});
+  EXPECT_THAT(objects_of(map), SizeIs(2));
+}
+
 TEST_F(MapObjectsOfPictures, TwoGuessesOfNeighboursStayTwo) {
   film(24, 50);
   options.probation = 100;
