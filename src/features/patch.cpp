@@ -7,10 +7,11 @@ namespace cairn {
 namespace {
 
 constexpr int kIterations = 8;
-constexpr float kSettled = 0.03F;       // pixels of the patch
-constexpr float kLeastLikeness = 0.8F;  // correlation
-constexpr float kLeastContrast = 0.1F;  // of the patch's own
-constexpr float kLeastDeterminant = 1;  // of the normal equations, grey levels to the sixth
+constexpr float kSettled = 0.03F;            // pixels of the patch
+constexpr float kLeastLikeness = 0.8F;       // correlation
+constexpr float kLeastContrast = 0.1F;       // of the patch's own
+constexpr float kLeastDeterminant = 1;       // of the normal equations, grey levels to the sixth
+constexpr float kMostForeshortening = 0.5F;  // from the middle of the patch to a corner
 constexpr float kHalf = (Patch::kSize - 1) / 2.0F;
 
 using Greys = Eigen::Array<float, Patch::kSize * Patch::kSize, 1>;
@@ -27,22 +28,32 @@ float interpolate(const cv::Mat& image, float x, float y) {
 }
 
 bool inside(const cv::Mat& image, const Eigen::Vector2f& center, const Eigen::Vector2f& extent) {
-  constexpr float kSlack = 0.01F;  // for rounding, on the way along a row
   const Eigen::Vector2f far = center + extent;
-  return (center - extent).minCoeff() >= kSlack &&
-         far.x() < static_cast<float>(image.cols - 1) - kSlack &&
-         far.y() < static_cast<float>(image.rows - 1) - kSlack;
+  return (center - extent).minCoeff() >= 0 && far.x() < static_cast<float>(image.cols - 1) &&
+         far.y() < static_cast<float>(image.rows - 1);
 }
 
-Greys sample(const cv::Mat& image, const Eigen::Vector2f& center, const Eigen::Matrix2f& A) {
-  Greys greys;
-  Eigen::Vector2f row = center - kHalf * (A.col(0) + A.col(1));
-  for (int r = 0; r < Patch::kSize; ++r, row += A.col(1)) {
-    for (int c = 0; c < Patch::kSize; ++c) {
-      const auto k = static_cast<float>(c);
-      greys[r * Patch::kSize + c] =
-          interpolate(image, row.x() + k * A(0, 0), row.y() + k * A(1, 0));
+// Of the pixels of a patch, from its middle, in the picture.
+struct Offsets {
+  explicit Offsets(const Patch::Warp& warp) {
+    for (int r = 0; r < Patch::kSize; ++r) {
+      for (int c = 0; c < Patch::kSize; ++c) {
+        const Eigen::Vector2f u(static_cast<float>(c) - kHalf, static_cast<float>(r) - kHalf);
+        const Eigen::Vector2f at = warp.affine * u / (1 + warp.foreshortening.dot(u));
+        x[r * Patch::kSize + c] = at.x();
+        y[r * Patch::kSize + c] = at.y();
+      }
     }
+  }
+  Eigen::Vector2f extent() const { return {x.abs().maxCoeff(), y.abs().maxCoeff()}; }
+
+  Greys x, y;
+};
+
+Greys sample(const cv::Mat& image, const Eigen::Vector2f& center, const Offsets& offsets) {
+  Greys greys;
+  for (int i = 0; i < greys.size(); ++i) {
+    greys[i] = interpolate(image, center.x() + offsets.x[i], center.y() + offsets.y[i]);
   }
   return greys;
 }
@@ -64,7 +75,7 @@ std::optional<Patch> Patch::cut(const cv::Mat& image, const Eigen::Vector2f& cen
 }
 
 std::optional<Eigen::Vector2f> Patch::find(const cv::Mat& image, const Eigen::Vector2f& start,
-                                           const Eigen::Matrix2f& A, float reach) const {
+                                           const Warp& warp, float reach) const {
   Greys grey, dx, dy;
   for (int r = 0; r < kSize; ++r) {
     for (int c = 0; c < kSize; ++c) {
@@ -91,17 +102,19 @@ std::optional<Eigen::Vector2f> Patch::find(const cv::Mat& image, const Eigen::Ve
   H.computeInverseWithCheck(inverse, invertible, kLeastDeterminant);
   if (!invertible) return std::nullopt;
 
-  const Eigen::Vector2f extent = kHalf * A.cwiseAbs().rowwise().sum();
+  if (!(warp.foreshortening.lpNorm<1>() * kHalf < kMostForeshortening)) return std::nullopt;
+  const Offsets offsets(warp);
+  const Eigen::Vector2f extent = offsets.extent();
   Eigen::Vector2f center = start;
   for (int k = 0; k < kIterations; ++k) {
     if (!inside(image, center, extent)) return std::nullopt;
-    Greys seen = sample(image, center, A);
+    Greys seen = sample(image, center, offsets);
     seen -= seen.mean();
     const Eigen::Vector3f b((seen * dx).sum(), (seen * dy).sum(), (seen * grey).sum());
     const Eigen::Vector3f fit = inverse * b;
     if (!(fit.z() > kLeastContrast)) return std::nullopt;
     const Eigen::Vector2f shift = fit.head<2>() / fit.z();
-    center -= A * shift;
+    center -= warp.affine * shift;
     if (!((center - start).squaredNorm() <= reach * reach)) return std::nullopt;
     if (shift.squaredNorm() > kSettled * kSettled) continue;
     const float likeness = b.z() / std::sqrt(power * (seen * seen).sum());

@@ -13,6 +13,13 @@ namespace cairn {
 /// (see peak_offset) to half a pixel.
 class Patch {
  public:
+  /// Where a picture shows the pixels of a patch: one that is `u` from the middle is
+  /// affine * u / (1 + foreshortening . u) pixels from where the middle is.
+  struct Warp {
+    Eigen::Matrix2f affine = Eigen::Matrix2f::Identity();
+    Eigen::Vector2f foreshortening = Eigen::Vector2f::Zero();  ///< a pixel
+  };
+
   static constexpr int kSize = 8;
   static constexpr int kBordered = kSize + 2;
 
@@ -22,10 +29,10 @@ class Patch {
 
   /// Where `image` shows the same, near `start`: inverse compositional alignment (Baker and
   /// Matthews, "Lucas-Kanade 20 Years On", 2004, section 3.2) over shift and contrast, whatever the
-  /// brightness. `A`: pixels of the image a pixel of the patch. Nothing where it does not settle
-  /// within `reach` pixels, or does not look alike there.
+  /// brightness. Nothing where it does not settle within `reach` pixels, or does not look alike
+  /// there.
   std::optional<Eigen::Vector2f> find(const cv::Mat& image, const Eigen::Vector2f& start,
-                                      const Eigen::Matrix2f& A, float reach) const;
+                                      const Warp& warp, float reach) const;
 
  private:
   std::array<std::uint8_t, std::size_t{kBordered} * kBordered> grey_;

@@ -52,8 +52,10 @@ std::shared_ptr<const PointPatch> cut_patch(const Picture& picture, const Pinhol
 PointPatch PointPatch::turned(const Eigen::Vector3d& normal) const {
   const double towards = normal.dot(ray);
   if (!(std::abs(towards) > kLeastCosine * normal.norm() * ray.norm())) return *this;
-  // Each pixel's ray meets the facet nearer to the camera or farther away.
-  return {patch, ray, steps - ray * (normal.transpose() * steps) / towards};
+  // Each pixel's ray meets the facet nearer to the camera or farther away: that of u goes along
+  // ray * (1 + foreshortening . u) + steps * u.
+  const Eigen::RowVector2d slope = normal.transpose() * steps / towards;
+  return {patch, ray, steps - ray * slope, foreshortening + slope.transpose()};
 }
 
 std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture& picture,
@@ -67,8 +69,9 @@ std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture
   projection << pinhole.fx, 0, -pinhole.fx * x, 0, pinhole.fy, -pinhole.fy * y;
   projection /= X.z();
   const Eigen::Vector2d at = picture.lens->to_picture(pixel);
-  const Eigen::Matrix2d A =
-      bend(*picture.lens, pixel, at) * projection * (T_cw.matrix3() * patch.steps);
+  const Eigen::Matrix<double, 3, 2> steps = T_cw.matrix3() * patch.steps;
+  const Eigen::Matrix2d A = bend(*picture.lens, pixel, at) * projection * steps;
+  const Eigen::Vector2d foreshortening = patch.foreshortening + steps.row(2).transpose() / X.z();
   // In the octave that shows it at the size it had.
   const double size = std::sqrt(std::abs(A.determinant()));
   if (!(size > kLeastSize) || !(A.norm() < kMostStretch * size)) return std::nullopt;
@@ -78,9 +81,9 @@ std::optional<Eigen::Vector2d> find_patch(const PointPatch& patch, const Picture
           ? 0
           : std::clamp(static_cast<int>(std::lround(std::log(size) / std::log(pyramid.ratio(1).x))),
                        0, pyramid.levels() - 1);
-  const Eigen::Matrix2f A_octave = (ratio(picture, octave).inverse() * A).cast<float>();
-  const auto found =
-      patch.patch.find(pyramid[octave], in_level(pyramid, at, octave), A_octave, kReach);
+  const Patch::Warp warp{(ratio(picture, octave).inverse() * A).cast<float>(),
+                         foreshortening.cast<float>()};
+  const auto found = patch.patch.find(pyramid[octave], in_level(pyramid, at, octave), warp, kReach);
   if (!found) return std::nullopt;
   const cv::Point2f base = pyramid.to_base({found->x(), found->y()}, octave);
   const Eigen::Vector2d result = picture.lens->to_pinhole({base.x, base.y}).cast<double>();

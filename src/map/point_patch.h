@@ -19,9 +19,11 @@ struct Picture {
 /// What a point of the map looks like: a small facet, as a camera saw it.
 struct PointPatch {
   Patch patch;
-  Eigen::Vector3d ray;  ///< along which the camera saw the point, world
-  /// From a pixel of the patch to the next, along its rows and down its columns, in the world.
+  Eigen::Vector3d ray;  ///< from the camera to the point, world
+  /// What the camera saw `u` pixels from the middle, along rows and down columns, is
+  /// steps * u / (1 + foreshortening . u) from the point, in the world.
   Eigen::Matrix<double, 3, 2> steps;
+  Eigen::Vector2d foreshortening = Eigen::Vector2d::Zero();
 
   /// The same picture on a facet that lies otherwise; as it was where that was seen from the edge.
   PointPatch turned(const Eigen::Vector3d& normal) const;

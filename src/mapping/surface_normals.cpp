@@ -1,7 +1,9 @@
 #include "cairn/mapping/surface_normals.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace cairn {
 namespace {
@@ -9,8 +11,11 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffU;
 constexpr double kReach = 0.06;  // of the neighbourhood's weight, at depth 1
 constexpr double kNoise = 0.03;  // of a new point's depth, relative
-constexpr double kSlope = 1;     // of surfaces against the picture, before anything is known
-constexpr int kIterations = 6;
+constexpr double kSlope = 3;     // of surfaces against the picture, before anything is known
+constexpr int kIterations = 9;
+// Neighbours on a steep surface look like outliers at first: they are let go little by little, as
+// the scale of the Cauchy loss is halved until it is that of the noise.
+constexpr int kHalvings = 3;
 
 }  // namespace
 
@@ -47,10 +52,11 @@ Eigen::Vector3d SurfaceNormals::at(std::uint32_t keypoint) const {
                     std::exp(-distance2 / 2) / (kNoise * kNoise)});
   }
   for (int k = 0; k < kIterations; ++k) {
+    const double scale = kNoise * std::exp2(std::max(0, kHalvings - k));
     Eigen::Matrix3d H = prior.asDiagonal();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     for (const Neighbour& n : near) {
-      const double off = (n.row.dot(fit) - n.value) / kNoise;
+      const double off = (n.row.dot(fit) - n.value) / scale;
       const double weight = n.weight / (1 + off * off);
       H.noalias() += weight * n.row * n.row.transpose();
       g.noalias() += weight * n.value * n.row;

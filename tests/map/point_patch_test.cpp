@@ -67,6 +67,25 @@ TEST(PointPatch, IsFoundFromTheOtherSideWhereItsFacetLiesAsTheSurfaceDoes) {
   EXPECT_EQ(facing->turned(Eigen::Vector3d::UnitY()).steps, facing->steps);  // nearly an edge
 }
 
+TEST(PointPatch, OnAFacetItsPixelsLieWhereTheirRaysMeetTheFacet) {
+  const PaintedWall wall;
+  const SE3 seen(so3_exp({0.1, -0.2, 0.3}), Eigen::Vector3d(0.1, 0.05, 0.2));
+  const Eigen::Vector2d pixel = wall.pixel(seen, kPoint);
+  const auto facing = cut_patch(wall.show(seen), wall.pinhole(), pixel, 0, seen, kPoint);
+  ASSERT_TRUE(facing);
+  for (const Eigen::Vector3d& normal :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(2, 1, 1), Eigen::Vector3d(-0.5, 0.5, 1)}) {
+    const PointPatch patch = facing->turned({0.3, -1, 1.5}).turned(normal);
+    for (const Eigen::Vector2d& u : {Eigen::Vector2d(4, 4), Eigen::Vector2d(-4, 3)}) {
+      const auto at = [&](const PointPatch& p) -> Eigen::Vector3d {
+        return kPoint + p.steps * u / (1 + p.foreshortening.dot(u));
+      };
+      EXPECT_NEAR(normal.normalized().dot(at(patch) - kPoint), 0, 1e-12);
+      EXPECT_NEAR((wall.pixel(seen, at(patch)) - wall.pixel(seen, at(*facing))).norm(), 0, 1e-9);
+    }
+  }
+}
+
 TEST(PointPatch, IsNotCutAtTheBorder) {
   const PaintedWall wall;
   EXPECT_FALSE(cut_patch(wall.show(SE3()), wall.pinhole(), {-30, 118}, 0, SE3(), kPoint));

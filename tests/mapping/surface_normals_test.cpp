@@ -60,6 +60,25 @@ TEST(SurfaceNormals, AreThoseOfThePlaneThatThePointsLieOn) {
   }
 }
 
+// As of houses beside a street.
+TEST(SurfaceNormals, AreThoseOfAWallThatIsSeenAlong) {
+  const Sight sight(5, 400, SE3(), [](const Eigen::Vector3d& ray) {
+    return 1 / std::max(0.1, std::abs(ray.x()));
+  });
+  const Keyframe& keyframe = sight.map.keyframes()[sight.id];
+  const SurfaceNormals normals(sight.map, keyframe);
+  std::vector<double> off;
+  for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
+    const double x = std::abs(kCamera.unproject(keyframe.frame->pixel(i)).x());
+    if (x < 0.12 || x > 0.3) continue;
+    off.push_back(degrees_between(normals.at(i), Eigen::Vector3d::UnitX()));
+  }
+  ASSERT_GT(off.size(), 50U);
+  std::sort(off.begin(), off.end());
+  EXPECT_LT(off[off.size() / 2], 5);
+  EXPECT_LT(off[off.size() * 9 / 10], 15);
+}
+
 TEST(SurfaceNormals, DoNotLeanTowardsWhatStandsBehind) {
   // A board that faces the camera at depth 1, before a wall at 4.
   const Sight sight(7, 800, SE3(),
