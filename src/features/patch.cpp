@@ -11,7 +11,7 @@ constexpr float kSettled = 0.03F;            // pixels of the patch
 constexpr float kLeastLikeness = 0.8F;       // correlation
 constexpr float kLeastContrast = 0.1F;       // of the patch's own
 constexpr float kLeastDeterminant = 1;       // of the normal equations, grey levels to the sixth
-constexpr float kMostForeshortening = 0.5F;  // from the middle of the patch to a corner
+constexpr float kMostForeshortening = 0.5F;  // of the depth, from the middle to a corner
 constexpr float kHalf = (Patch::kSize - 1) / 2.0F;
 
 using Greys = Eigen::Array<float, Patch::kSize * Patch::kSize, 1>;
@@ -76,6 +76,7 @@ std::optional<Patch> Patch::cut(const cv::Mat& image, const Eigen::Vector2f& cen
 
 std::optional<Eigen::Vector2f> Patch::find(const cv::Mat& image, const Eigen::Vector2f& start,
                                            const Warp& warp, float reach) const {
+  if (!(warp.foreshortening.lpNorm<1>() * kHalf < kMostForeshortening)) return std::nullopt;
   Greys grey, dx, dy;
   for (int r = 0; r < kSize; ++r) {
     for (int c = 0; c < kSize; ++c) {
@@ -102,7 +103,6 @@ std::optional<Eigen::Vector2f> Patch::find(const cv::Mat& image, const Eigen::Ve
   H.computeInverseWithCheck(inverse, invertible, kLeastDeterminant);
   if (!invertible) return std::nullopt;
 
-  if (!(warp.foreshortening.lpNorm<1>() * kHalf < kMostForeshortening)) return std::nullopt;
   const Offsets offsets(warp);
   const Eigen::Vector2f extent = offsets.extent();
   Eigen::Vector2f center = start;

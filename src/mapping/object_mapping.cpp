@@ -103,7 +103,7 @@ bool look_at_one_place(const Map& map, const ObjectObservation& a, const ObjectO
 void join_guesses(Map& map, ObjectId id, const ObjectBirthOptions& options,
                   std::map<std::string, int>& refusals) {
   const ObjectLandmark& guess = map.objects()[id];
-  if (guess.observations.size() < 2) return;
+  if (guess.born || guess.observations.size() < 2) return;
   ObjectId found_with;
   map.objects().for_each([&](ObjectId other_id, const ObjectLandmark& other) {
     if (found_with.valid() || other_id == id || other.born || other.last_seen == guess.last_seen ||
@@ -255,7 +255,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
   gather_points(map, keyframe);
   const std::vector<ObjectDecision> decisions =
       associate_objects(map, id, seen.objects, options.association);
-  std::vector<ObjectId> guesses;
+  std::vector<ObjectId> known;
   for (std::size_t i = 0; i < seen.objects.size(); ++i) {
     const SeenObject& thing = seen.objects[i];
     if (decisions[i].kind == ObjectDecision::Kind::kUnclear) continue;
@@ -271,11 +271,11 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     }
     update_evidence(landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
-    if (!landmark.born) guesses.push_back(decisions[i].object);
+    known.push_back(decisions[i].object);
   }
   // Not before all have been seen: what one picture shows twice is two things, of which none must
   // go while its box waits.
-  for (const ObjectId guess : guesses) join_guesses(map, guess, options.birth, refusals);
+  for (const ObjectId object : known) join_guesses(map, object, options.birth, refusals);
   fuse_objects(map);
   let_die(map, id, options);
   if (options.supports) find_supports(map, options.max_gap);
