@@ -58,8 +58,7 @@ bool Mapper::initialize(const InitialPair& initial) {
   map_.keyframes()[first].picture = initial.picture1;
   k2.picture = initial.picture2;
   align_points(map_, first);
-  current_ = second;
-  publish(second);
+  look_around(current_ = second);
   return true;
 }
 
@@ -91,7 +90,7 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   const int missed = find_missed_points(map_, current_);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused, {} missed", keyframe.sequence,
                 keyframe.timestamp(), map_.tracked_points(current_), created.size(), fused, missed);
-  publish(current_);
+  look_around(current_);
   return current_;
 }
 
@@ -121,7 +120,7 @@ void Mapper::join(const KeyframePerception& seen) {
   join_objects(keyframe, seen);
   // The camera has gone on from the points that were assumed there.
   if (keyframe != map_.newest()) cull_recent_points();
-  publish(current_);
+  publish();
 }
 
 void Mapper::join_planes(KeyframeId keyframe, const KeyframePerception& seen) {
@@ -178,7 +177,7 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
                   1000 * map_.readout_estimate());
   }
   cull_keyframes();
-  publish(current_);
+  publish();
 }
 
 AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort,
@@ -204,7 +203,7 @@ AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort,
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();
-  publish(map_.newest());
+  look_around(map_.newest());
   return summary;
 }
 
@@ -248,8 +247,13 @@ void Mapper::count_visible(std::span<const PointId> visible, std::span<const Poi
   }
 }
 
-void Mapper::publish(KeyframeId reference) {
-  view_ = make_view(map_, reference, options_.max_local_points, ++version_);
+void Mapper::look_around(KeyframeId keyframe) {
+  standpoint_ = keyframe;
+  publish();
+}
+
+void Mapper::publish() {
+  view_ = make_view(map_, standpoint_, options_.max_local_points, ++version_);
 }
 
 // New points are on probation: they must be found where they should be, and seen by a third
@@ -273,7 +277,7 @@ void Mapper::cull_recent_points() {
 // that is no reason to have fewer of them.
 void Mapper::cull_keyframes() {
   for (const auto& [id, shared] : map_.covisible(current_, 15)) {
-    if (id == map_.first() || id == current_) continue;
+    if (id == map_.first() || id == current_ || id == standpoint_) continue;
     const Keyframe& keyframe = map_.keyframes()[id];
     int seen = 0, redundant = 0;
     for (std::uint32_t i = 0; i < keyframe.frame->corners(); ++i) {

@@ -69,6 +69,9 @@ class Mapper {
   /// What the tracker saw and should have seen, for culling.
   void count_visible(std::span<const PointId> visible, std::span<const PointId> found);
 
+  /// A lost camera was found by this keyframe: until the next insertion the view is around it.
+  /// Publishes.
+  void look_around(KeyframeId keyframe);
   /// The newest snapshot.
   const std::shared_ptr<const MapView>& view() const { return view_; }
   const Map& map() const { return map_; }
@@ -85,7 +88,7 @@ class Mapper {
   void join_planes(KeyframeId keyframe, const KeyframePerception& seen);
   void join_objects(KeyframeId keyframe, const KeyframePerception& seen);
   void measure_scale_anew();
-  void publish(KeyframeId reference);
+  void publish();
   void cull_recent_points();
   void cull_keyframes();
 
@@ -96,7 +99,8 @@ class Mapper {
   KeyframeTimes times_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
-  KeyframeId current_;
+  KeyframeId current_;     // the newest
+  KeyframeId standpoint_;  // where the camera is: the view is around it
   std::uint64_t version_ = 0;
   std::shared_ptr<const MapView> view_;
 };

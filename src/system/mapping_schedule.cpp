@@ -118,6 +118,10 @@ void MappingSchedule::run_question(const Question& question) {
     answer.found =
         relocalize_with_objects(*question.frame, map, question.objects, tracking_, question.seed);
   }
+  if (answer.found) {
+    mapper_->look_around(answer.found->view->reference);
+    publish();
+  }
   const std::lock_guard lock(mutex_);
   answer_ = std::move(answer);
   question_.reset();
@@ -147,7 +151,7 @@ void MappingSchedule::loop() {
       if (!insertions_.empty() && !overdue && !(seen_earlier && unadjusted == 0)) {
         insertion = std::move(insertions_.front());
         insertions_.pop_front();
-      } else if (question_ && !stopping_) {
+      } else if (question_ && insertions_.empty() && !stopping_) {
         question = *question_;
       } else if (seen_earlier && !overdue) {
         perception = std::move(perceptions_.front());

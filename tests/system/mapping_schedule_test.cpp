@@ -71,6 +71,23 @@ TEST_P(MappingScheduleTest, AnswersWhereALostFrameIs) {
   EXPECT_FALSE(schedule->relocalizing());
 }
 
+// It may have come back to where it was long ago: the newest keyframe does not see that place.
+TEST_P(MappingScheduleTest, ShowsTheMapAroundACameraThatWasFoundUntilTheNextKeyframe) {
+  for (int i = 0; i < kInserted; ++i) insert(0.5 + 0.2 * i);
+  schedule->relocalize(world.show(along(0.1), 100), 1);
+  std::optional<MappingSchedule::Answer> answer;
+  while (!(answer = schedule->take_relocalization())) std::this_thread::yield();
+  ASSERT_TRUE(answer->found.has_value());
+  const KeyframeId found_by = answer->found->view->reference;
+  const SE3 T_wc = schedule->view()->pose_of(found_by).value();
+  EXPECT_LT((T_wc.translation() - answer->found->T_wc.translation()).norm(), 0.5);
+  schedule->settle();
+  EXPECT_EQ(schedule->view()->reference, found_by) << "an adjustment has looked away";
+  insert(0.1);
+  schedule->stop();
+  EXPECT_NE(schedule->view()->reference, found_by);
+}
+
 TEST_P(MappingScheduleTest, SaysThatAForeignFrameIsNowhere) {
   testing::PointWorld elsewhere(92);
   schedule->relocalize(elsewhere.show(along(0), 100), 1);
