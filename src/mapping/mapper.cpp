@@ -88,6 +88,7 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
   align_points(map_, current_);
   const int missed = find_missed_points(map_, current_);
+  look_back(map_);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused, {} missed", keyframe.sequence,
                 keyframe.timestamp(), map_.tracked_points(current_), created.size(), fused, missed);
   look_around(current_);
@@ -183,6 +184,7 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
 AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort,
                                  std::span<const KeyframeMotion> motions) {
   if (map_.keyframes().size() < 2) return {};
+  map_.keyframes().for_each([&](KeyframeId id, const Keyframe&) { find_missed_points(map_, id); });
   set_motions(map_, motions);
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);

@@ -1,5 +1,6 @@
 #include "cairn/mapping/missed_points.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@ constexpr int kShared = 10;              // points, that a keyframe is a neighbo
 constexpr std::size_t kSure = 3;         // views of a point that say where it should be
 constexpr double kReach = 1.5;           // pixels that it may be from there
 constexpr double kOneCorner = 1.5;       // pixels between keypoints of one corner
+constexpr std::size_t kPictures = 30;    // kept; each takes a megabyte
 
 std::vector<PointId> points_around(const Map& map, KeyframeId id) {
   std::vector<KeyframeId> around;
@@ -77,8 +79,21 @@ int find_missed_points(Map& map, KeyframeId id) {
     seen.push_back(p);
   }
   keyframe.frame = std::move(frame);
+  if (!keyframe.depth.empty()) keyframe.depth.resize(keyframe.points.size());
   for (const PointId p : seen) map.update_geometry(p);
   return static_cast<int>(seen.size());
+}
+
+void look_back(Map& map) {
+  std::vector<std::pair<std::uint32_t, KeyframeId>> at_hand;  // by age
+  map.keyframes().for_each([&](KeyframeId id, const Keyframe& k) {
+    if (k.picture) at_hand.emplace_back(k.sequence, id);
+  });
+  std::sort(at_hand.begin(), at_hand.end());
+  for (std::size_t i = 0; i + kPictures < at_hand.size(); ++i) {
+    find_missed_points(map, at_hand[i].second);
+    map.keyframes()[at_hand[i].second].picture = nullptr;
+  }
 }
 
 }  // namespace cairn

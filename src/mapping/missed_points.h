@@ -12,4 +12,8 @@ namespace cairn {
 /// Returns how many there were; none where the picture is not at hand.
 int find_missed_points(Map& map, KeyframeId id);
 
+/// Of all but the newest keyframes: looks in their pictures once more, as more points are known by
+/// now than when they were new, and lets the pictures go.
+void look_back(Map& map);
+
 }  // namespace cairn

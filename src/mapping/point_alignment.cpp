@@ -1,14 +1,10 @@
 #include "cairn/mapping/point_alignment.h"
 
-#include <algorithm>
-
 #include "cairn/mapping/surface_normals.h"
 
 namespace cairn {
 namespace {
 
-// Points are looked for in so many of the newest keyframes; a picture takes a megabyte.
-constexpr std::size_t kPictures = 30;
 // Keyframes for which a point is new: its neighbours, and they say how its surface lies, still
 // move.
 constexpr std::uint32_t kNew = 3;
@@ -41,20 +37,6 @@ void turn_patches(Map& map, const Keyframe& keyframe) {
   }
 }
 
-// Of all but the newest keyframes.
-void let_pictures_go(Map& map) {
-  std::vector<std::uint32_t> with_picture;
-  map.keyframes().for_each([&](KeyframeId, const Keyframe& k) {
-    if (k.picture) with_picture.push_back(k.sequence);
-  });
-  if (with_picture.size() <= kPictures) return;
-  const auto oldest = with_picture.end() - kPictures;
-  std::nth_element(with_picture.begin(), oldest, with_picture.end());
-  map.keyframes().for_each([&](KeyframeId, Keyframe& k) {
-    if (k.sequence < *oldest) k.picture = nullptr;
-  });
-}
-
 // Trackers may look at the frame: what moves is a copy of it.
 void align_keypoints(Map& map, Keyframe& keyframe, KeyframeId id) {
   const SE3 T_cw = keyframe.T_wc.inverse();
@@ -83,7 +65,6 @@ void align_points(Map& map, KeyframeId newest) {
   if (!keyframe.picture) return;
   cut_new_patches(map, keyframe, newest);
   turn_patches(map, keyframe);
-  let_pictures_go(map);
   map.keyframes().for_each([&](KeyframeId id, Keyframe& k) {
     if (k.picture) align_keypoints(map, k, id);
   });

@@ -6,8 +6,7 @@ namespace cairn {
 
 /// After a keyframe was taken in, with its new points: says what new points look like, and moves
 /// the keypoints that have come to see a point, in this keyframe and in those whose pictures are
-/// still at hand, to where these look as the point does. Keeps the pictures of the newest keyframes
-/// only.
+/// still at hand, to where these look as the point does.
 void align_points(Map& map, KeyframeId newest);
 
 }  // namespace cairn

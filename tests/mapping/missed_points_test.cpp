@@ -90,5 +90,26 @@ TEST_F(MissedPoints, AreKeptWhereAnInstantShutterWouldHaveSeenThem) {
   EXPECT_GT(farthest, 0.1);
 }
 
+// Points that become known while it is among the newest thirty.
+TEST(LookingBack, FindsInOldPicturesWhatWasNotKnownThenAndLetsThemGo) {
+  PaintedMap painted;
+  const KeyframeId old = painted.add(SE3(), kFound);
+  const auto keyframe = [&]() -> Keyframe& { return painted.map.keyframes()[old]; };
+  keyframe().depth.assign(kFound, 1);
+  std::vector<KeyframeId> newer;
+  for (int i = 1; i <= 30; ++i) {
+    look_back(painted.map);
+    EXPECT_TRUE(keyframe().picture);
+    newer.push_back(painted.add(beside(0.003 * i)));
+    align_points(painted.map, newer.back());
+  }
+  EXPECT_EQ(painted.aligned(old), int(kFound));
+  look_back(painted.map);
+  EXPECT_EQ(painted.aligned(old), int(painted.size()));
+  EXPECT_EQ(keyframe().depth.size(), keyframe().points.size());
+  EXPECT_FALSE(keyframe().picture);
+  for (const KeyframeId id : newer) EXPECT_TRUE(painted.map.keyframes()[id].picture);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -36,20 +36,6 @@ TEST(PointAlignment, FramesThatATrackerMayHoldStayAsTheyAre) {
   EXPECT_NE(painted.map.keyframes()[first].frame, held);
 }
 
-TEST(PointAlignment, KeepsThePicturesOfTheNewestKeyframesOnly) {
-  PaintedMap painted;
-  std::vector<KeyframeId> ids;
-  for (int i = 0; i < 35; ++i) {
-    ids.push_back(painted.add(beside(0.003 * i)));
-    align_points(painted.map, ids.back());
-  }
-  EXPECT_FALSE(painted.map.keyframes()[ids.front()].picture);
-  EXPECT_TRUE(painted.map.keyframes()[ids.back()].picture);
-  int kept = 0;
-  for (const KeyframeId id : ids) kept += painted.map.keyframes()[id].picture != nullptr;
-  EXPECT_EQ(kept, 30);
-}
-
 TEST(PointAlignment, WithoutPicturesNothingHappens) {
   PaintedMap painted;
   const KeyframeId id = painted.add(SE3());
