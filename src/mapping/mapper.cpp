@@ -58,7 +58,7 @@ bool Mapper::initialize(const InitialPair& initial) {
   map_.keyframes()[first].picture = initial.picture1;
   k2.picture = initial.picture2;
   align_points(map_, first);
-  look_around(current_ = second);
+  look_around(second);
   return true;
 }
 
@@ -69,30 +69,30 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
   const SE3 T_wr = reference != nullptr
                        ? reference->T_wc
                        : KeyframeGenealogy(map_, buried_).T_wc(candidate.reference).value();
-  current_ = map_.add_keyframe(candidate.frame, T_wr * candidate.T_rc);
-  Keyframe& keyframe = map_.keyframes()[current_];
+  const KeyframeId current = map_.add_keyframe(candidate.frame, T_wr * candidate.T_rc);
+  Keyframe& keyframe = map_.keyframes()[current];
   keyframe.picture = candidate.picture;
   for (std::uint32_t i = 0; i < candidate.points.size(); ++i) {
     const PointId p = candidate.points[i];
-    if (!p.valid() || !map_.points().contains(p) || map_.keypoint_of(p, current_) >= 0) continue;
+    if (!p.valid() || !map_.points().contains(p) || map_.keypoint_of(p, current) >= 0) continue;
     const bool aligned = !candidate.aligned.empty() && candidate.aligned[i] != 0;
-    map_.add_observation(p, current_, i, aligned ? PatchState::kFound : PatchState::kUntried);
+    map_.add_observation(p, current, i, aligned ? PatchState::kFound : PatchState::kUntried);
     map_.update_descriptor(p);
     map_.update_geometry(p);
     if (map_.points()[p].assumed) measure(p);
   }
   cull_recent_points();
   const std::vector<PointId> created = create_points(
-      map_, current_, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
+      map_, current, {options_.neighbours, options_.min_parallax_deg, options_.match_ratio});
   recent_.insert(recent_.end(), created.begin(), created.end());
-  const int fused = fuse_neighbourhood(map_, current_, options_.neighbours);
-  align_points(map_, current_);
-  const int missed = find_missed_points(map_, current_);
+  const int fused = fuse_neighbourhood(map_, current, options_.neighbours);
+  align_points(map_, current);
+  const int missed = find_missed_points(map_, current);
   look_back(map_);
   spdlog::debug("keyframe {} at {:.3f}: {} points, {} new, {} fused, {} missed", keyframe.sequence,
-                keyframe.timestamp(), map_.tracked_points(current_), created.size(), fused, missed);
-  look_around(current_);
-  return current_;
+                keyframe.timestamp(), map_.tracked_points(current), created.size(), fused, missed);
+  look_around(current);
+  return current;
 }
 
 // A point whose depth was that of its plane is measured once two views see it apart.
@@ -173,7 +173,7 @@ void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
 void Mapper::adjust(const std::atomic<bool>* abort) {
   const Timed timed(times_.adjustment);
   if (map_.keyframes().size() > 2) {
-    const AdjustmentSummary s = adjust_locally(map_, current_, options_.adjustment, abort);
+    const AdjustmentSummary s = adjust_locally(map_, map_.newest(), options_.adjustment, abort);
     spdlog::debug("local adjustment: {}; readout {:.1f} ms", s.to_string(),
                   1000 * map_.readout_estimate());
   }
@@ -261,7 +261,7 @@ void Mapper::publish() {
 // New points are on probation: they must be found where they should be, and seen by a third
 // keyframe once two more keyframes have had the chance.
 void Mapper::cull_recent_points() {
-  const std::uint32_t now = map_.keyframes()[current_].sequence;
+  const std::uint32_t now = map_.keyframes()[map_.newest()].sequence;
   std::erase_if(recent_, [&](PointId id) {
     const MapPoint* p = map_.points().find(id);
     if (p == nullptr) return true;
@@ -278,8 +278,8 @@ void Mapper::cull_recent_points() {
 // count, and not what they missed: the more often points are seen, the surer is each keyframe, but
 // that is no reason to have fewer of them.
 void Mapper::cull_keyframes() {
-  for (const auto& [id, shared] : map_.covisible(current_, 15)) {
-    if (id == map_.first() || id == current_ || id == standpoint_) continue;
+  for (const auto& [id, shared] : map_.covisible(map_.newest(), 15)) {
+    if (id == map_.first() || id == standpoint_) continue;
     const Keyframe& keyframe = map_.keyframes()[id];
     int seen = 0, redundant = 0;
     for (std::uint32_t i = 0; i < keyframe.frame->corners(); ++i) {

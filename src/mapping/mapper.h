@@ -99,7 +99,6 @@ class Mapper {
   KeyframeTimes times_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
-  KeyframeId current_;     // the newest
   KeyframeId standpoint_;  // where the camera is: the view is around it
   std::uint64_t version_ = 0;
   std::shared_ptr<const MapView> view_;

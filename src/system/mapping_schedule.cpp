@@ -144,7 +144,8 @@ void MappingSchedule::loop() {
       if (stopping_ && insertions_.empty() && perceptions_.empty() && !adjustment_due) return;
       busy_ = true;
       abort_ = false;
-      // Those of keyframes that still wait come after them.
+      // Those of keyframes that still wait come after them, and so do questions: an insertion takes
+      // the view with it.
       const bool seen_earlier =
           !perceptions_.empty() && (insertions_.empty() || perceptions_.front().frame->timestamp <
                                                                insertions_.front().timestamp());
