@@ -11,7 +11,7 @@ namespace {
 constexpr double kSamePress = 0.5;  // seconds
 
 volatile std::sig_atomic_t interrupt_seen = 0;
-volatile double first_seen = 0;
+volatile double last_seen = -1;
 
 double now() {  // safe to call from a signal handler
   timespec time{};
@@ -20,13 +20,14 @@ double now() {  // safe to call from a signal handler
 }
 
 void on_interrupt(int signal) {
-  if (interrupt_seen == 0) {
-    first_seen = now();
-    interrupt_seen = 1;
-  } else if (now() - first_seen > kSamePress) {
+  const double time = now();
+  if (last_seen >= 0 && time - last_seen < kSamePress) return;
+  last_seen = time;
+  if (interrupt_seen != 0) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
+  interrupt_seen = 1;
 }
 
 }  // namespace
@@ -37,5 +38,7 @@ void remember_interrupts() {
 }
 
 bool interrupted() { return interrupt_seen != 0; }
+
+void forget_interrupt() { interrupt_seen = 0; }
 
 }  // namespace cairn::app

@@ -2,8 +2,10 @@
 
 namespace cairn::app {
 
-/// From here on the first Ctrl-C (or SIGTERM) is only remembered; the second one kills.
+/// From here on a Ctrl-C (or SIGTERM) is only remembered; while one is, another kills.
 void remember_interrupts();
 bool interrupted();
+/// What it asked for is under way: the next one is remembered anew.
+void forget_interrupt();
 
 }  // namespace cairn::app

@@ -10,12 +10,14 @@ namespace {
 
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr std::size_t kBarWidth = 24;
+constexpr double kFirstRate = 0.2;  // seconds before it means anything
 
 }  // namespace
 
-Progress::Progress(bool wanted, std::optional<std::size_t> frames)
+Progress::Progress(bool wanted, std::optional<std::size_t> all, std::string unit)
     : visible_(wanted && isatty(STDERR_FILENO) != 0),
-      frames_(frames),
+      all_(all),
+      unit_(std::move(unit)),
       start_(std::chrono::steady_clock::now()),
       last_drawn_(start_) {}
 
@@ -33,14 +35,14 @@ void Progress::show(const std::string& what) {
   last_drawn_ = now;
   drawn_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double fps = seconds > 0 ? double(seen_) / seconds : 0;
+  const double per_second = seconds > kFirstRate ? double(seen_) / seconds : 0;
   std::string bar(kBarWidth, '.'), all;
-  if (frames_ && *frames_ > 0) {
-    std::fill_n(bar.begin(), std::min<std::size_t>(seen_ * kBarWidth / *frames_, kBarWidth), '#');
-    all = "of " + std::to_string(*frames_);
+  if (all_ && *all_ > 0) {
+    std::fill_n(bar.begin(), std::min<std::size_t>(seen_ * kBarWidth / *all_, kBarWidth), '#');
+    all = "of " + std::to_string(*all_) + " ";
   }
-  std::fprintf(stderr, "\r\033[K[%s] %zu %s frames  %.1f fps  %s", bar.c_str(), seen_, all.c_str(),
-               fps, what.c_str());
+  std::fprintf(stderr, "\r\033[K[%s] %zu %s%s  %.1f/s  %s", bar.c_str(), seen_, all.c_str(),
+               unit_.c_str(), per_second, what.c_str());
   std::fflush(stderr);
 }
 

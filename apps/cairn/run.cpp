@@ -108,14 +108,31 @@ void report_problems(const Playback& playback, Progress& progress) {
   }
 }
 
-// In realtime the networks see to some keyframes only now.
-SlamResult finish(Slam& slam, const Arguments& arguments) {
-  std::optional<Progress> progress;
-  return slam.finish([&](std::size_t, std::size_t all) {
-    if (!progress) progress.emplace(!arguments.no_progress, all);
-    progress->show("looking at keyframes that were passed over");
-    return !interrupted();
+// In realtime the networks see to some keyframes only now; who cut the sequence short does not want
+// to wait for that, but for a map that is adjusted. What comes from here on cuts that short, too.
+SlamResult finish(Slam& slam, const Arguments& arguments, Playback& playback) {
+  using Stage = Slam::Finishing::Stage;
+  forget_interrupt();
+  std::optional<Progress> looking, adjusting;
+  const auto show = [&](const Slam::Finishing& at) {
+    const bool adjusts = at.stage == Stage::kAdjusting;
+    auto& progress = adjusts ? adjusting : looking;
+    if (!progress) {
+      progress.emplace(!arguments.no_progress, at.all, adjusts ? "steps at most" : "keyframes");
+    }
+    progress->show(adjusts ? "adjusting the whole map" : "looking at those that were passed over");
+  };
+  SlamResult result = slam.finish([&](const Slam::Finishing& at) {
+    const bool pressed = interrupted();
+    playback.interrupted = playback.interrupted || pressed;
+    if (at.stage == Stage::kLooking) {
+      if (pressed) forget_interrupt();
+      if (playback.interrupted) return false;
+    }
+    show(at);
+    return !pressed;
   });
+  return result;
 }
 
 int run(const Arguments& arguments, const std::string& typed) {
@@ -141,15 +158,17 @@ int run(const Arguments& arguments, const std::string& typed) {
   remember_interrupts();
   RunRecorder recorder(description, arguments.video, sequence.fps);
   Slam slam(camera, description.options, std::move(detector));
-  const Playback playback = play(*sequence.frames, slam, description.options.pace,
-                                 [&](const cv::Mat& image, const FrameResult& result) {
-                                   progress.show(result.record);
-                                   recorder.add(image, result, slam);
-                                 });
+  Playback playback = play(*sequence.frames, slam, description.options.pace,
+                           [&](const cv::Mat& image, const FrameResult& result) {
+                             progress.show(result.record);
+                             recorder.add(image, result, slam);
+                           });
   report_problems(playback, progress);
   if (playback.interrupted)
-    progress.note("interrupted; finishing the map and writing what there is");
-  const SlamResult result = finish(slam, arguments);
+    progress.note(
+        "interrupted; finishing the map and writing what there is (Ctrl-C again: without "
+        "finishing it)");
+  const SlamResult result = finish(slam, arguments, playback);
   recorder.write(slam.frames(), result, playback);
   print_outcome(description, slam.frames(), result);
   if (playback.interrupted) return kInterrupted;

@@ -170,10 +170,10 @@ void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
   }
 }
 
-void Mapper::adjust(const std::atomic<bool>* abort) {
+void Mapper::adjust(const StopAsked& stop) {
   const Timed timed(times_.adjustment);
   if (map_.keyframes().size() > 2) {
-    const AdjustmentSummary s = adjust_locally(map_, map_.newest(), options_.adjustment, abort);
+    const AdjustmentSummary s = adjust_locally(map_, map_.newest(), options_.adjustment, stop);
     spdlog::debug("local adjustment: {}; readout {:.1f} ms", s.to_string(),
                   1000 * map_.readout_estimate());
   }
@@ -181,24 +181,23 @@ void Mapper::adjust(const std::atomic<bool>* abort) {
   publish();
 }
 
-AdjustmentSummary Mapper::finish(const std::atomic<bool>* abort,
-                                 std::span<const KeyframeMotion> motions) {
+AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const KeyframeMotion> motions) {
   if (map_.keyframes().size() < 2) return {};
   map_.keyframes().for_each([&](KeyframeId id, const Keyframe&) { find_missed_points(map_, id); });
   set_motions(map_, motions);
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   OdometryBlocks path(map_);  // one adjustment after the other must not lead away from it
-  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, abort, &path);
+  AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, stop, &path);
   if (options_.adjustment.estimate_readout) find_motions(map_);
   // Places that were seen twice, with drift in between, meet only now.
   const int fused = fuse_everywhere(map_);
   if (fused > 0) align_points(map_, map_.newest());
   spdlog::info("full adjustment: {}; then {} points fused; readout {:.2f} ms", summary.to_string(),
                fused, 1000 * map_.readout_estimate());
-  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, abort, &path);
+  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, stop, &path);
   if (options_.refine_lens) {
-    const AdjustmentSummary lens = refine_lens(map_, options_.adjustment, abort, &path);
+    const AdjustmentSummary lens = refine_lens(map_, options_.adjustment, stop, &path);
     spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());
     if (lens.usable) summary = lens;
   }

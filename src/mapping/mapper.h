@@ -59,12 +59,11 @@ class Mapper {
   void join(const KeyframePerception& seen);
   /// The keyframe that a picture became; invalid where it is none, or has been culled.
   KeyframeId keyframe_of(const Frame& frame) const;
-  /// Local adjustment and culling after an insertion; publishes. Returns early when `abort` is set.
-  void adjust(const std::atomic<bool>* abort);
+  /// Local adjustment and culling after an insertion; publishes. May be told to stop early.
+  void adjust(const StopAsked& stop);
   /// The end: fusion over the whole map, then full adjustment. `motions`: of keyframes, as all
   /// frames show them.
-  AdjustmentSummary finish(const std::atomic<bool>* abort,
-                           std::span<const KeyframeMotion> motions = {});
+  AdjustmentSummary finish(const StopAsked& stop, std::span<const KeyframeMotion> motions = {});
 
   /// What the tracker saw and should have seen, for culling.
   void count_visible(std::span<const PointId> visible, std::span<const PointId> found);

@@ -75,7 +75,7 @@ std::string AdjustmentSummary::to_string() const {
 }
 
 AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
-                                 const std::atomic<bool>* abort) {
+                                 const StopAsked& stop) {
   std::vector<KeyframeId> free = {centre};
   for (const auto& [id, shared] : map.covisible(centre, 15, std::max(options.window, 1) - 1)) {
     free.push_back(id);
@@ -92,16 +92,16 @@ AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOp
     free.erase(oldest);
   }
   MapProblem problem(map, std::move(free), std::move(fixed), std::move(points), options);
-  AdjustmentSummary summary = problem.solve(options.local_iterations, 1e-4, abort);
+  AdjustmentSummary summary = problem.solve(options.local_iterations, 1e-4, stop);
   if (!summary.usable) return summary;
   problem.write_back();
-  // An aborted fit is no judge of observations.
-  if (abort == nullptr || !abort->load()) summary.outliers = problem.erase_outliers(kGate);
+  // A fit that was stopped is no judge of observations.
+  if (!summary.stopped) summary.outliers = problem.erase_outliers(kGate);
   return summary;
 }
 
-AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
-                               const std::atomic<bool>* abort, OdometryBlocks* path) {
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, const StopAsked& stop,
+                               OdometryBlocks* path) {
   AdjustmentSummary summary;
   std::optional<OdometryBlocks> now;
   if (path == nullptr) path = &now.emplace(map);
@@ -111,27 +111,28 @@ AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
         whole_map(map, options, round == 0 ? kFirstWidth : kLastWidth, false, *path);
     if (problem == nullptr) return summary;
     const int outliers = summary.outliers;
-    summary = problem->solve(options.full_iterations, 1e-7, abort);
+    summary = problem->solve(options.full_iterations, 1e-7, stop);
     if (round == 0) initial_rms = summary.initial_rms;
     summary.initial_rms = initial_rms;
     if (!summary.usable) return summary;
     problem->keep_unit();
     problem->write_back();
+    if (summary.stopped) return summary;
     // The first fit is bent by what is wrong: only what is far off goes.
     summary.outliers = outliers + problem->erase_outliers(round == 0 ? 4 * kGate : kGate);
   }
   return summary;
 }
 
-AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options,
-                              const std::atomic<bool>* abort, OdometryBlocks* path) {
+AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options, const StopAsked& stop,
+                              OdometryBlocks* path) {
   std::optional<OdometryBlocks> now;
   if (path == nullptr) path = &now.emplace(map);
   const auto problem = whole_map(map, options, kLastWidth, true, *path);
   if (problem == nullptr) return {};
-  AdjustmentSummary summary = problem->solve(options.full_iterations, 1e-7, abort);
+  AdjustmentSummary summary = problem->solve(options.full_iterations, 1e-7, stop);
   const double left = summary.final_rms / summary.initial_rms;
-  summary.usable = summary.usable && left * left < 1 - kLensShare;
+  summary.usable = summary.usable && !summary.stopped && left * left < 1 - kLensShare;
   if (!summary.usable) return summary;
   problem->keep_unit();
   problem->write_back();

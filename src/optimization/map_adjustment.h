@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,8 +21,13 @@ struct AdjustmentOptions {
   ObjectFactorOptions objects;
 };
 
+/// Asked after each step of an adjustment: true ends it, and the map is as good as the last
+/// accepted step. May be null.
+using StopAsked = std::function<bool()>;
+
 struct AdjustmentSummary {
   bool usable = false;
+  bool stopped = false;  ///< before it was done
   int keyframes = 0, points = 0, observations = 0, outliers = 0, iterations = 0;
   double initial_rms = 0, final_rms = 0;  ///< √(robust cost of all factors / observations)
   std::string to_string() const;
@@ -31,22 +36,21 @@ struct AdjustmentSummary {
 /// Adjusts the newest keyframes around `centre`, those that share most points with it, and all
 /// points they see; keyframes outside that see the same points are held. Observations beyond the
 /// gate of their χ² are erased from the map afterwards. What was added to corners takes no part:
-/// it would double the time, and what it is good for, drift, shows in the whole map only. Stops
-/// early when `abort` becomes true; the map is then as good as the last accepted step.
+/// it would double the time, and what it is good for, drift, shows in the whole map only.
 AdjustmentSummary adjust_locally(Map& map, KeyframeId centre, const AdjustmentOptions& options,
-                                 const std::atomic<bool>* abort);
+                                 const StopAsked& stop);
 
 /// Adjusts everything; the first keyframe is held, and so is the unit of the map, and where points
 /// are few how keyframes lay to each other. Runs twice: once with all observations, once without
 /// those that the first run shows to be wrong. `path`: how keyframes lay to each other, as tracking
-/// had them; null: as they lie now.
-AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options,
-                               const std::atomic<bool>* abort, OdometryBlocks* path = nullptr);
+/// had them; null: as they lie now. Where it is stopped nothing is erased.
+AdjustmentSummary adjust_fully(Map& map, const AdjustmentOptions& options, const StopAsked& stop,
+                               OdometryBlocks* path = nullptr);
 
 /// Adjusts everything once more, after `adjust_fully`, together with the correction of the lens.
 /// Only if the correction explains a share of the cost that noise does not, it is believed and
-/// the map changed; else the summary is not `usable`.
-AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options,
-                              const std::atomic<bool>* abort, OdometryBlocks* path = nullptr);
+/// the map changed; else, or where it is stopped, the summary is not `usable`.
+AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options, const StopAsked& stop,
+                              OdometryBlocks* path = nullptr);
 
 }  // namespace cairn

@@ -17,15 +17,18 @@ constexpr double kReadoutSigma = 0.02, kReadoutStep = 0.005, kLongestReadout = 0
 // known of the camera has to be firm: where motion hardly shows the lens, it must not drift away.
 constexpr std::array<double, LensCorrection::kSize> kLensSigma = {0.003, 0.003, 0.003, 0.7, 0.7};
 
-class AbortCallback : public ceres::IterationCallback {
+class AskToStop : public ceres::IterationCallback {
  public:
-  explicit AbortCallback(const std::atomic<bool>* abort) : abort_(abort) {}
+  explicit AskToStop(const StopAsked& stop) : stop_(stop) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-    return abort_->load() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    stopped = stop_();
+    return stopped ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
+  bool stopped = false;
+
  private:
-  const std::atomic<bool>* abort_;
+  const StopAsked& stop_;
 };
 
 }  // namespace
@@ -57,8 +60,7 @@ MapProblem::MapProblem(Map& map, std::vector<KeyframeId> free, std::vector<Keyfr
   build();
 }
 
-AdjustmentSummary MapProblem::solve(int iterations, double tolerance,
-                                    const std::atomic<bool>* abort) {
+AdjustmentSummary MapProblem::solve(int iterations, double tolerance, const StopAsked& stop) {
   ceres::Solver::Options options;
   options.linear_solver_type = free_count_ > 60 ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
   options.linear_solver_ordering = ordering_;
@@ -66,13 +68,14 @@ AdjustmentSummary MapProblem::solve(int iterations, double tolerance,
   options.function_tolerance = tolerance;
   options.num_threads = 1;  // more would sum in an order that changes from run to run
   options.logging_type = ceres::SILENT;
-  AbortCallback callback(abort);
-  if (abort != nullptr) options.callbacks.push_back(&callback);
+  AskToStop ask(stop);
+  if (stop) options.callbacks.push_back(&ask);
   ceres::Solver::Summary s;
   ceres::Solve(options, problem_.get(), &s);
 
   AdjustmentSummary summary;
   summary.usable = s.IsSolutionUsable();
+  summary.stopped = ask.stopped;
   summary.keyframes = static_cast<int>(free_count_);
   summary.points = static_cast<int>(points_.size());
   summary.observations = static_cast<int>(observations_.size());

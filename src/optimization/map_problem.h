@@ -36,7 +36,7 @@ class MapProblem {
              std::vector<PointId> points, const AdjustmentOptions& options, double width = 1,
              bool full = false, bool refine_lens = false);
 
-  AdjustmentSummary solve(int iterations, double tolerance, const std::atomic<bool>* abort);
+  AdjustmentSummary solve(int iterations, double tolerance, const StopAsked& stop);
   void hold_steps(OdometryBlocks& odometry);
   /// The unit of a monocular map is free: keyframes and points can shrink together at no cost, and
   /// steps along that direction are as large as the solver's damping lets them be. What hangs on

@@ -169,7 +169,8 @@ void MappingSchedule::loop() {
       mapper_->join(*perception);
       publish();
     } else if (adjustment_due) {
-      mapper_->adjust(overdue ? nullptr : &abort_);
+      const StopAsked somebody_waits = [this] { return abort_.load(); };
+      mapper_->adjust(overdue ? StopAsked() : somebody_waits);
       publish();
       adjustment_due = false;
       if (overdue || !abort_) unadjusted = 0;

@@ -27,6 +27,7 @@ constexpr int kRestartAfter = 8;  // lost frames, before a young map is given up
 // of so many questions one is asked with objects, the second one first.
 constexpr int kQuestionsALook = 5;
 constexpr std::size_t kLeastObjects = 3;  // of the map, that a place can be told by
+constexpr std::size_t kFullFits = 5;      // two before and two after fusion, and the lens
 
 // A thousand keypoints for each 640 pixels of width, where the user left the number open.
 Options resolved(Options options, const Camera& camera) {
@@ -285,9 +286,10 @@ void Slam::Implementation::deliver(KeyframePerception seen) {
 void Slam::Implementation::catch_up(const GoOn& go_on) {
   perception->stop();
   const Mapper& mapper = mapping->stop();
-  perception->catch_up(
-      [&](const Frame& frame) { return mapper.keyframe_of(frame).valid(); },
-      [&](std::size_t done, std::size_t all) { return !go_on || go_on(done, all); });
+  perception->catch_up([&](const Frame& frame) { return mapper.keyframe_of(frame).valid(); },
+                       [&](std::size_t done, std::size_t all) {
+                         return !go_on || go_on({Finishing::Stage::kLooking, done, all});
+                       });
 }
 
 void Slam::Implementation::lose(const std::shared_ptr<const Frame>& frame, FrameRecord& record) {
@@ -376,8 +378,15 @@ SlamResult Slam::finish(const GoOn& go_on) {
   }
   if (s.perception) s.catch_up(go_on);
   Mapper& mapper = s.mapping->stop();
+  const std::size_t most_steps =
+      kFullFits * (static_cast<std::size_t>(s.options.mapping.adjustment.full_iterations) + 1);
+  std::size_t steps = 0;
+  const StopAsked stop = [&] {
+    return go_on &&
+           !go_on({Finishing::Stage::kAdjusting, std::min(++steps, most_steps), most_steps});
+  };
   const AdjustmentSummary summary =
-      mapper.finish(nullptr, s.log.keyframe_motions(mapper.map(), mapper.buried()));
+      mapper.finish(stop, s.log.keyframe_motions(mapper.map(), mapper.buried()));
   spdlog::info("full adjustment: {}", summary.to_string());
   const Map& map = mapper.map();
   result.trajectory = s.log.final_trajectory(map, mapper.buried());

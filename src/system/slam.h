@@ -94,9 +94,13 @@ class Slam {
   void skip(double timestamp);
   /// Waits for the mapper, runs the full adjustment, and hands out everything. In realtime the
   /// detector may have been too slow for all keyframes: it looks at the others before that.
-  /// `go_on`, if there is one, is asked before each of these, how many are done, and of how many;
-  /// false leaves the rest.
-  using GoOn = std::function<bool(std::size_t done, std::size_t all)>;
+  /// `go_on`, if there is one, is asked before each of these, and after each step of the
+  /// adjustment; false leaves the rest of either.
+  struct Finishing {
+    enum class Stage { kLooking, kAdjusting } stage;
+    std::size_t done, all;  ///< keyframes looked at; steps, of which fewer may be enough
+  };
+  using GoOn = std::function<bool(const Finishing&)>;
   SlamResult finish(const GoOn& go_on = {});
 
   /// The newest state of the local map, for viewers; immutable, so keep it as long as you like.

@@ -364,11 +364,13 @@ TEST(Adjustment, StopsEarlyWhenAskedToAndLeavesAUsableMap) {
   Map map = testing::true_map(world, walk(6, 0.3));
   disturb(map, 6, 0.002, 0.002, 0.002);
   const int before = observations_of(map);
-  const std::atomic<bool> abort{true};
+  const StopAsked stop = [] { return true; };
   for (int round = 0; round < 2; ++round) {
     const AdjustmentSummary summary =
-        round == 0 ? adjust_locally(map, map.newest(), {}, &abort) : adjust_fully(map, {}, &abort);
+        round == 0 ? adjust_locally(map, map.newest(), {}, stop) : adjust_fully(map, {}, stop);
+    EXPECT_TRUE(summary.stopped);
     EXPECT_LE(summary.iterations, 2);
+    EXPECT_EQ(summary.outliers, 0);
     EXPECT_EQ(broken_links(map), "");
     EXPECT_GT(observations_of(map), before / 2);
     EXPECT_LT(errors_of(map, world).camera, 0.05);

@@ -142,7 +142,7 @@ TEST(Slam, InRealtimePicturesAreLookedAtOnAThreadOfTheirOwn) {
   Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
   std::size_t masks = 0;
   for (int i = 0; i < kFrames; ++i) masks += slam.process(pictures()[i], i / 30.0).planes.size();
-  const SlamResult result = slam.finish([](std::size_t, std::size_t) { return false; });
+  const SlamResult result = slam.finish([](const Slam::Finishing&) { return false; });
   EXPECT_GT(result.trajectory.size(), kFrames / 2u) << result.refusal;
   ASSERT_EQ(record.threads.size(), 1u);
   EXPECT_NE(*record.threads.begin(), std::this_thread::get_id());
@@ -159,9 +159,10 @@ TEST(Slam, InRealtimeKeyframesThatADetectorHadNoTimeForAreLookedAtInTheEnd) {
   for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
   sequence_ended.set_value();
   std::size_t asked = 0, all = 0;
-  const SlamResult result = slam.finish([&](std::size_t done, std::size_t of) {
-    EXPECT_EQ(done, asked++);
-    all = of;
+  const SlamResult result = slam.finish([&](const Slam::Finishing& finishing) {
+    if (finishing.stage != Slam::Finishing::Stage::kLooking) return true;
+    EXPECT_EQ(finishing.done, asked++);
+    all = finishing.all;
     return true;
   });
   EXPECT_GT(all, 0u);
@@ -171,6 +172,27 @@ TEST(Slam, InRealtimeKeyframesThatADetectorHadNoTimeForAreLookedAtInTheEnd) {
       EXPECT_TRUE(record.times.contains(keyframe.timestamp)) << keyframe.timestamp;
     }
   }
+}
+
+TEST(Slam, ItsAdjustmentInTheEndGoesStepByStepAndMayBeCutShort) {
+  using Finishing = Slam::Finishing;
+  const auto steps_of = [](std::size_t allowed, std::size_t& tracked) {
+    Slam slam(scene().camera(), lockstep(0));
+    for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+    std::size_t steps = 0;
+    const SlamResult result = slam.finish([&](const Finishing& at) {
+      EXPECT_EQ(at.stage, Finishing::Stage::kAdjusting);
+      EXPECT_EQ(at.done, ++steps);
+      EXPECT_LE(at.done, at.all);
+      return steps <= allowed;
+    });
+    tracked = result.trajectory.size();
+    return steps;
+  };
+  std::size_t tracked = 0, tracked_when_cut = 0;
+  EXPECT_GT(steps_of(1000, tracked), 10u);
+  EXPECT_LE(steps_of(2, tracked_when_cut), 6u) << "one look at each fit that is left";
+  EXPECT_EQ(tracked, tracked_when_cut);
 }
 
 TEST(Slam, InLockstepADetectorThatKnowsGivesTheFloorAndMetres) {
