@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cairn/map/id_set.h"
 #include "cairn/map/neighbourhood.h"
 
 namespace cairn {
@@ -42,16 +43,16 @@ std::shared_ptr<const MapView> make_view(const Map& map, KeyframeId reference, i
   view->units_a_metre = map.units_a_metre;
 
   std::vector<PointId> ids;
+  IdSet<PointId> taken;
   for (const KeyframeId id : neighbourhood(map, reference, kDirect, kOfNeighbours)) {
     const Keyframe& keyframe = map.keyframes()[id];
     view->keyframes.push_back({id, keyframe.T_wc});
     if (static_cast<int>(ids.size()) >= max_points) continue;
     for (const PointId p : keyframe.points) {
-      if (p.valid()) ids.push_back(p);
+      if (p.valid() && taken.insert(p)) ids.push_back(p);
     }
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
+  std::sort(ids.begin(), ids.end());
   view->points.reserve(ids.size());
   for (const PointId id : ids) {
     const MapPoint& p = map.points()[id];

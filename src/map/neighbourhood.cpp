@@ -1,16 +1,15 @@
 #include "cairn/map/neighbourhood.h"
 
+#include "cairn/map/id_set.h"
+
 namespace cairn {
 
 std::vector<KeyframeId> neighbourhood(const Map& map, KeyframeId id, const Neighbours& direct,
                                       const Neighbours& second) {
   std::vector<KeyframeId> found;
-  std::vector<bool> taken;  // by slot
+  IdSet<KeyframeId> taken;
   auto take = [&](KeyframeId k) {
-    if (k.slot >= taken.size()) taken.resize(k.slot + 1, false);
-    if (taken[k.slot]) return;
-    taken[k.slot] = true;
-    found.push_back(k);
+    if (taken.insert(k)) found.push_back(k);
   };
   auto take_around = [&](KeyframeId k, const Neighbours& wanted) {
     for (const auto& [near, shared] : map.covisible(k, wanted.min_shared, wanted.most)) take(near);
