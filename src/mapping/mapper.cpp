@@ -28,6 +28,13 @@ constexpr double kLeastSpread = 0.02;    // of predicted scales
 // Sigma of its logarithm: a metre that may be twice as long says nothing of the size of things.
 constexpr double kTrusted = 0.7;
 constexpr std::uint32_t kProbation = 3;  // keyframes
+// A map of so few keyframes is adjusted with each, and learns from each how the shutter rolls.
+// Later what follows within `kPause` waits for the next adjustment: it shows nearly the same. The
+// readout has to do with all observations, which takes a third of the time: one adjustment in so
+// many asks.
+constexpr std::uint32_t kYoung = 20;
+constexpr double kPause = 0.12;  // seconds
+constexpr int kReadoutTurn = 8;
 
 }  // namespace
 
@@ -171,9 +178,15 @@ void Mapper::join_objects(KeyframeId keyframe, const KeyframePerception& seen) {
 }
 
 void Mapper::adjust(const StopAsked& stop) {
+  const Keyframe& newest = map_.keyframes()[map_.newest()];
+  const bool young = newest.sequence < kYoung;
+  if (!young && newest.timestamp() < last_adjusted_ + kPause) return;
+  last_adjusted_ = newest.timestamp();
   const Timed timed(times_.adjustment);
   if (map_.keyframes().size() > 2) {
-    const AdjustmentSummary s = adjust_locally(map_, map_.newest(), options_.adjustment, stop);
+    AdjustmentOptions options = options_.adjustment;
+    options.estimate_readout &= young || ++adjustments_ % kReadoutTurn == 0;
+    const AdjustmentSummary s = adjust_locally(map_, map_.newest(), options, stop);
     spdlog::debug("local adjustment: {}; readout {:.1f} ms", s.to_string(),
                   1000 * map_.readout_estimate());
   }

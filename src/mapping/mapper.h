@@ -59,7 +59,8 @@ class Mapper {
   void join(const KeyframePerception& seen);
   /// The keyframe that a picture became; invalid where it is none, or has been culled.
   KeyframeId keyframe_of(const Frame& frame) const;
-  /// Local adjustment and culling after an insertion; publishes. May be told to stop early.
+  /// Local adjustment and culling after an insertion; publishes. Does nothing where the last was a
+  /// moment ago, unless the map is young. May be told to stop early.
   void adjust(const StopAsked& stop);
   /// The end: fusion over the whole map, then full adjustment. `motions`: of keyframes, as all
   /// frames show them.
@@ -98,7 +99,9 @@ class Mapper {
   KeyframeTimes times_;
   std::vector<PointId> recent_;  // points on probation
   std::vector<BuriedKeyframe> buried_;
-  KeyframeId standpoint_;  // where the camera is: the view is around it
+  KeyframeId standpoint_;     // where the camera is: the view is around it
+  double last_adjusted_ = 0;  // seconds, of the keyframe
+  int adjustments_ = 0;
   std::uint64_t version_ = 0;
   std::shared_ptr<const MapView> view_;
 };

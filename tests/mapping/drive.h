@@ -56,8 +56,10 @@ class Drive {
     return candidate;
   }
 
+  double step = 0.5;  ///< seconds from one frame to the next
+
  private:
-  std::shared_ptr<const Frame> next(const SE3& T_wc) { return world_.show(T_wc, time_ += 0.5); }
+  std::shared_ptr<const Frame> next(const SE3& T_wc) { return world_.show(T_wc, time_ += step); }
 
   PointWorld& world_;
   double time_ = 0;

@@ -217,6 +217,22 @@ TEST_F(MapperTest, AnAdjustmentThatIsToldToStopStillPublishes) {
   EXPECT_LT(errors_of(map(), world).camera, 0.15);
 }
 
+TEST_F(MapperTest, AKeyframeThatFollowsTheLastAdjustmentAtOnceWaitsForTheNext) {
+  ASSERT_TRUE(start());
+  std::vector<bool> adjusted;
+  drive.step = 0.05;
+  for (int i = 1; i <= 32; ++i) {
+    insert(0.3 + 0.1 * i);
+    const std::uint64_t version = mapper.view()->version;
+    mapper.adjust(nullptr);
+    adjusted.push_back(mapper.view()->version > version);
+  }
+  const auto old = adjusted.begin() + 20;
+  EXPECT_EQ(std::count(adjusted.begin(), old - 2, true), 18) << "a young map is adjusted to each";
+  EXPECT_EQ(std::count(old, adjusted.end(), true), 4);
+  EXPECT_LT(errors_of(map(), world).camera, 0.15);
+}
+
 TEST_F(MapperTest, FindsItsKeyframesByAppearance) {
   ASSERT_TRUE(start());
   for (int i = 2; i <= 16; ++i) {  // the first ones are old enough to be in the index
