@@ -208,7 +208,11 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   if (fused > 0) align_points(map_, map_.newest());
   spdlog::info("full adjustment: {}; then {} points fused; readout {:.2f} ms", summary.to_string(),
                fused, 1000 * map_.readout_estimate());
-  if (fused > 0) summary = adjust_fully(map_, options_.adjustment, stop, &path);
+  if (fused > 0) {
+    AdjustmentOptions options = options_.adjustment;
+    options.estimate_readout = false;  // it is known by now
+    summary = adjust_fully(map_, options, stop, &path);
+  }
   if (options_.refine_lens) {
     const AdjustmentSummary lens = refine_lens(map_, options_.adjustment, stop, &path);
     spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());

@@ -130,9 +130,16 @@ AdjustmentSummary refine_lens(Map& map, const AdjustmentOptions& options, const 
   if (path == nullptr) path = &now.emplace(map);
   const auto problem = whole_map(map, options, kLastWidth, true, *path);
   if (problem == nullptr) return {};
-  AdjustmentSummary summary = problem->solve(options.full_iterations, 1e-7, stop);
-  const double left = summary.final_rms / summary.initial_rms;
-  summary.usable = summary.usable && !summary.stopped && left * left < 1 - kLensShare;
+  // Mostly there is nothing to explain, and a rough fit says so.
+  AdjustmentSummary summary = problem->solve(options.full_iterations, 1e-4, stop);
+  const double initial_rms = summary.initial_rms;
+  const auto explains = [&](double share) {
+    const double left = summary.final_rms / initial_rms;
+    return summary.usable && !summary.stopped && left * left < 1 - share;
+  };
+  if (explains(kLensShare / 2)) summary = problem->solve(options.full_iterations, 1e-7, stop);
+  summary.initial_rms = initial_rms;
+  summary.usable = explains(kLensShare);
   if (!summary.usable) return summary;
   problem->keep_unit();
   problem->write_back();

@@ -27,7 +27,7 @@ constexpr int kRestartAfter = 8;  // lost frames, before a young map is given up
 // of so many questions one is asked with objects, the second one first.
 constexpr int kQuestionsALook = 5;
 constexpr std::size_t kLeastObjects = 3;  // of the map, that a place can be told by
-constexpr std::size_t kFullFits = 5;      // two before and two after fusion, and the lens
+constexpr std::size_t kFullFits = 6;      // two before and two after fusion, two of the lens
 
 // A thousand keypoints for each 640 pixels of width, where the user left the number open.
 Options resolved(Options options, const Camera& camera) {
