@@ -122,7 +122,7 @@ SlamResult finish(Slam& slam, const Arguments& arguments, Playback& playback) {
     }
     progress->show(adjusts ? "adjusting the whole map" : "looking at those that were passed over");
   };
-  SlamResult result = slam.finish([&](const Slam::Finishing& at) {
+  return slam.finish([&](const Slam::Finishing& at) {
     const bool pressed = interrupted();
     playback.interrupted = playback.interrupted || pressed;
     if (at.stage == Stage::kLooking) {
@@ -132,7 +132,6 @@ SlamResult finish(Slam& slam, const Arguments& arguments, Playback& playback) {
     show(at);
     return !pressed;
   });
-  return result;
 }
 
 int run(const Arguments& arguments, const std::string& typed) {
@@ -164,10 +163,11 @@ int run(const Arguments& arguments, const std::string& typed) {
                              recorder.add(image, result, slam);
                            });
   report_problems(playback, progress);
-  if (playback.interrupted)
+  if (playback.interrupted) {
     progress.note(
         "interrupted; finishing the map and writing what there is (Ctrl-C again: without "
         "finishing it)");
+  }
   const SlamResult result = finish(slam, arguments, playback);
   recorder.write(slam.frames(), result, playback);
   print_outcome(description, slam.frames(), result);

@@ -225,6 +225,11 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   return summary;
 }
 
+// Of two fits before and two after fusion, and two of the lens; each is asked where it starts, too.
+std::size_t Mapper::most_steps() const {
+  return 6 * (static_cast<std::size_t>(options_.adjustment.full_iterations) + 1);
+}
+
 std::vector<KeyframeId> Mapper::similar_keyframes(const Features& features, int count) const {
   std::vector<KeyframeId> ids;
   std::vector<const Features*> pictures;

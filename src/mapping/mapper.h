@@ -3,7 +3,6 @@
 // The mapping room: keyframes in, map out. It alone changes the map. It knows no threads and no
 // pictures: the system room says when to map, the tracker what was seen.
 
-#include <atomic>
 #include <map>
 #include <memory>
 #include <span>
@@ -65,6 +64,8 @@ class Mapper {
   /// The end: fusion over the whole map, then full adjustment. `motions`: of keyframes, as all
   /// frames show them.
   AdjustmentSummary finish(const StopAsked& stop, std::span<const KeyframeMotion> motions = {});
+  /// How often `finish` asks whether it should stop, at most.
+  std::size_t most_steps() const;
 
   /// What the tracker saw and should have seen, for culling.
   void count_visible(std::span<const PointId> visible, std::span<const PointId> found);

@@ -27,7 +27,6 @@ constexpr int kRestartAfter = 8;  // lost frames, before a young map is given up
 // of so many questions one is asked with objects, the second one first.
 constexpr int kQuestionsALook = 5;
 constexpr std::size_t kLeastObjects = 3;  // of the map, that a place can be told by
-constexpr std::size_t kFullFits = 6;      // two before and two after fusion, two of the lens
 
 // A thousand keypoints for each 640 pixels of width, where the user left the number open.
 Options resolved(Options options, const Camera& camera) {
@@ -378,12 +377,9 @@ SlamResult Slam::finish(const GoOn& go_on) {
   }
   if (s.perception) s.catch_up(go_on);
   Mapper& mapper = s.mapping->stop();
-  const std::size_t most_steps =
-      kFullFits * (static_cast<std::size_t>(s.options.mapping.adjustment.full_iterations) + 1);
   std::size_t steps = 0;
   const StopAsked stop = [&] {
-    return go_on &&
-           !go_on({Finishing::Stage::kAdjusting, std::min(++steps, most_steps), most_steps});
+    return go_on && !go_on({Finishing::Stage::kAdjusting, ++steps, mapper.most_steps()});
   };
   const AdjustmentSummary summary =
       mapper.finish(stop, s.log.keyframe_motions(mapper.map(), mapper.buried()));

@@ -92,15 +92,16 @@ class Slam {
   void drop(double timestamp);
   /// A frame that cannot be used (broken picture, wrong size, time going back); it is counted.
   void skip(double timestamp);
-  /// Waits for the mapper, runs the full adjustment, and hands out everything. In realtime the
-  /// detector may have been too slow for all keyframes: it looks at the others before that.
-  /// `go_on`, if there is one, is asked before each of these, and after each step of the
-  /// adjustment; false leaves the rest of either.
+  /// What `finish` is at.
   struct Finishing {
     enum class Stage { kLooking, kAdjusting } stage;
     std::size_t done, all;  ///< keyframes looked at; steps, of which fewer may be enough
   };
   using GoOn = std::function<bool(const Finishing&)>;
+  /// Waits for the mapper, runs the full adjustment, and hands out everything. In realtime the
+  /// detector may have been too slow for all keyframes: it looks at the others before that.
+  /// `go_on`, if there is one, is asked before each of these, and after each step of the
+  /// adjustment; false leaves the rest of either.
   SlamResult finish(const GoOn& go_on = {});
 
   /// The newest state of the local map, for viewers; immutable, so keep it as long as you like.
