@@ -119,7 +119,7 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline) {
 
 double angle_off(PlaneRelation relation, const Plane& a, const Plane& b) {
   const double angle = angle_between(a, b);
-  return relation == PlaneRelation::kParallel ? angle : std::numbers::pi / 2 - angle;
+  return relation == PlaneRelation::kPerpendicular ? std::numbers::pi / 2 - angle : angle;
 }
 
 void change_reference(PlaneLandmark& landmark, KeyframeId reference, const SE3& T_nr) {

@@ -127,12 +127,12 @@ std::vector<Eigen::Vector3d> common_outline(
 /// The mean of an outline's corners; the origin where there are none.
 Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline);
 
-enum class PlaneRelation { kParallel, kPerpendicular };
+enum class PlaneRelation { kParallel, kPerpendicular, kCoplanar };
 
-/// How far two planes are from a relation, radians, whichever sides they face.
+/// How far the normals of two planes are from a relation, radians, whichever sides they face.
 double angle_off(PlaneRelation relation, const Plane& a, const Plane& b);
 
-/// Two planes of the map that the evidence says are parallel or perpendicular.
+/// Two planes of the map that the evidence says stand so to each other.
 struct RelatedPlanes {
   PlaneId a, b;
   PlaneRelation relation = PlaneRelation::kParallel;

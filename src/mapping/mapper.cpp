@@ -11,6 +11,7 @@
 #include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/missed_points.h"
 #include "cairn/mapping/plane_confirmation.h"
+#include "cairn/mapping/plane_mapping.h"
 #include "cairn/mapping/point_alignment.h"
 #include "cairn/mapping/point_creation.h"
 #include "cairn/mapping/point_fusion.h"
@@ -218,6 +219,7 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
     spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());
     if (lens.usable) summary = lens;
   }
+  fuse_planes(map_, options_.planes.association);  // what the adjustments have brought together
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();

@@ -65,24 +65,6 @@ double viewing_distance(const Map& map, PlaneId id) {
   return middle_of(map.planes()[id].outline).norm();  // outlines are in the reference's frame
 }
 
-void fuse_planes(Map& map, const PlaneAssociationOptions& options) {
-  std::vector<PlaneId> ids;
-  map.planes().for_each([&](PlaneId id, const PlaneLandmark&) { ids.push_back(id); });
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    for (std::size_t k = i + 1; k < ids.size(); ++k) {
-      if (!map.planes().contains(ids[i]) || !map.planes().contains(ids[k])) continue;
-      const double distance =
-          std::min(viewing_distance(map, ids[i]), viewing_distance(map, ids[k]));
-      if (!one_surface(map, ids[i], ids[k], distance, options)) continue;
-      // The better known one stays.
-      const bool first = map.planes()[ids[i]].sightings >= map.planes()[ids[k]].sightings;
-      spdlog::debug("planes: {} ({}) and {} ({}) are one surface", int(ids[i].slot),
-                    map.planes()[ids[i]].label(), int(ids[k].slot), map.planes()[ids[k]].label());
-      map.merge_planes(first ? ids[k] : ids[i], first ? ids[i] : ids[k]);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerception& seen,
@@ -135,6 +117,24 @@ std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerceptio
   if (options.manhattan) relate_planes(map, options);
   std::erase_if(created, [&](PointId p) { return !map.points().contains(p); });
   return created;
+}
+
+void fuse_planes(Map& map, const PlaneAssociationOptions& options) {
+  std::vector<PlaneId> ids;
+  map.planes().for_each([&](PlaneId id, const PlaneLandmark&) { ids.push_back(id); });
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t k = i + 1; k < ids.size(); ++k) {
+      if (!map.planes().contains(ids[i]) || !map.planes().contains(ids[k])) continue;
+      const double distance =
+          std::min(viewing_distance(map, ids[i]), viewing_distance(map, ids[k]));
+      if (!one_surface(map, ids[i], ids[k], distance, options)) continue;
+      // The better known one stays.
+      const bool first = map.planes()[ids[i]].sightings >= map.planes()[ids[k]].sightings;
+      spdlog::debug("planes: {} ({}) and {} ({}) are one surface", int(ids[i].slot),
+                    map.planes()[ids[i]].label(), int(ids[k].slot), map.planes()[ids[k]].label());
+      map.merge_planes(first ? ids[k] : ids[i], first ? ids[i] : ids[k]);
+    }
+  }
 }
 
 }  // namespace cairn

@@ -35,4 +35,7 @@ struct DepthScale {
 std::vector<PointId> map_planes(Map& map, KeyframeId keyframe, const KeyframePerception& seen,
                                 const DepthScale& scale, const PlaneMappingOptions& options);
 
+/// Makes landmarks that turn out to be one surface one.
+void fuse_planes(Map& map, const PlaneAssociationOptions& options);
+
 }  // namespace cairn

@@ -10,6 +10,47 @@
 #include "cairn/mapping/plane_mapping.h"
 
 namespace cairn {
+namespace {
+
+// Shares of the distance. A picture whose depth is off by a fifth is so all over: where it shows
+// two floors, steps of more than this show. Where none does, this much the scale may have drifted.
+constexpr double kStep = 0.06, kDrift = 0.4;
+
+bool on_one_level(const PlaneObservation& a, const PlaneObservation& b) {
+  const double distance = std::min(a.centroid.norm(), b.centroid.norm());
+  const Eigen::Vector3d between = b.centroid - a.centroid;
+  return a.normal.dot(b.normal) > std::cos(kMaxImpliedAngle) &&
+         std::abs(a.normal.dot(between)) < kStep * distance &&
+         std::abs(b.normal.dot(between)) < kStep * distance;
+}
+
+// Do pictures that show both, if there are any, show one plane?
+bool shown_as_one(const PlaneLandmark& a, const PlaneLandmark& b) {
+  int together = 0, as_one = 0;
+  for (const PlaneObservation& of_a : a.observations) {
+    for (const PlaneObservation& of_b : b.observations) {
+      if (of_a.keyframe != of_b.keyframe) continue;
+      ++together;
+      as_one += on_one_level(of_a, of_b);
+    }
+  }
+  return 2 * as_one >= together;
+}
+
+// A floor that became two landmarks while the scale drifted; or a ceiling.
+bool are_one_level(const Map& map, PlaneId id_a, PlaneId id_b) {
+  const PlaneLandmark &a = map.planes()[id_a], &b = map.planes()[id_b];
+  if (a.label() != b.label() || !is_ended_by_walls(a.label())) return false;
+  const Plane plane_a = map.plane_in_world(id_a), plane_b = map.plane_in_world(id_b);
+  if (plane_a.normal().dot(plane_b.normal()) < std::cos(kMaxImpliedAngle)) return false;
+  const Eigen::Vector3d middle_a = middle_of(map.outline_in_world(id_a)),
+                        middle_b = middle_of(map.outline_in_world(id_b));
+  const double most = kDrift * std::min(middle_of(a.outline).norm(), middle_of(b.outline).norm());
+  return std::abs(plane_a.signed_distance(middle_b)) < most &&
+         std::abs(plane_b.signed_distance(middle_a)) < most && shown_as_one(a, b);
+}
+
+}  // namespace
 
 bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b) {
   return std::any_of(a.observations.begin(), a.observations.end(),
@@ -32,6 +73,9 @@ void relate_planes(Map& map, const PlaneMappingOptions& options) {
   map.relations().clear();
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t k = i + 1; k < planes.size(); ++k) {
+      if (are_one_level(map, planes[i].id, planes[k].id)) {
+        map.relations().push_back({planes[i].id, planes[k].id, PlaneRelation::kCoplanar});
+      }
       const double sigma = std::hypot(planes[i].sigma, planes[k].sigma);
       const bool drifted = is_upright(planes[i].label) && is_upright(planes[k].label) &&
                            !seen_together(map.planes()[planes[i].id], map.planes()[planes[k].id]);

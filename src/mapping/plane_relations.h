@@ -17,9 +17,10 @@ inline constexpr double kMaxImpliedAngle = 25 * std::numbers::pi / 180;
 /// What no picture shows together may be turned against each other by what drifted in between.
 bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b);
 
-/// Which confirmed planes are parallel or perpendicular. A relation begins where the angle is
-/// within two σ of it, and ends beyond three; where only drift stands between two upright planes,
-/// within what buildings leave no doubt about.
+/// Which confirmed planes are parallel or perpendicular, and which floors or ceilings are one. A
+/// relation of angles begins where the angle is within two σ of it, and ends beyond three; where
+/// only drift stands between two upright planes, within what buildings leave no doubt about. Floors
+/// are one where pictures that show both show no step, however far apart drift has put them.
 void relate_planes(Map& map, const PlaneMappingOptions& options);
 
 }  // namespace cairn

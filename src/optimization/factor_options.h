@@ -17,6 +17,7 @@ struct PlaneFactorOptions {
   FactorOptions point_on_plane = {.sigma = 0.005};  ///< as a share of the viewing distance
   FactorOptions parallel = {.sigma = 1};            ///< degrees
   FactorOptions perpendicular = {.sigma = 1};       ///< degrees
+  FactorOptions coplanar = {.sigma = 0.01};         ///< as a share of the viewing distance
 };
 
 struct ObjectFactorOptions {

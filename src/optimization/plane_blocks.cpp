@@ -4,8 +4,10 @@
 #include <ceres/ordered_groups.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "cairn/optimization/factors/coplanar_planes_factor.h"
 #include "cairn/optimization/factors/parallel_planes_factor.h"
 #include "cairn/optimization/factors/perpendicular_planes_factor.h"
 #include "cairn/optimization/factors/plane_observation_factor.h"
@@ -108,23 +110,51 @@ void PlaneBlocks::add_points(Entry& entry) {
 
 void PlaneBlocks::add_relations() {
   for (const RelatedPlanes& r : map_.relations()) {
-    const FactorOptions& options =
-        r.relation == PlaneRelation::kParallel ? options_.parallel : options_.perpendicular;
     Entry* a = find(r.a);
     Entry* b = find(r.b);
-    if (!options.use || a == nullptr || b == nullptr) continue;
-    const double sigma = options.sigma * kRadians;
+    if (!options_of(r.relation).use || a == nullptr || b == nullptr) continue;
     const KeyframeId ra = map_.planes()[r.a].reference, rb = map_.planes()[r.b].reference;
-    const PlaneFrames frames = ra == rb ? PlaneFrames::kOne : PlaneFrames::kTwo;
     std::vector<double*> blocks = {a->values.data(), b->values.data()};
     if (ra != rb) blocks = {poses_->at(ra), a->values.data(), poses_->at(rb), b->values.data()};
-    if (r.relation == PlaneRelation::kParallel) {
-      add(std::make_unique<ParallelPlanesFactor>(options.form, frames, sigma), losses_[0].get(),
-          blocks);
-    } else {
-      add(std::make_unique<PerpendicularPlanesFactor>(frames, sigma), losses_[0].get(), blocks);
-    }
+    add(factor_of(r), losses_[0].get(), blocks);
   }
+}
+
+const FactorOptions& PlaneBlocks::options_of(PlaneRelation relation) const {
+  switch (relation) {
+    case PlaneRelation::kParallel:
+      return options_.parallel;
+    case PlaneRelation::kPerpendicular:
+      return options_.perpendicular;
+    case PlaneRelation::kCoplanar:
+      break;
+  }
+  return options_.coplanar;
+}
+
+std::unique_ptr<ceres::CostFunction> PlaneBlocks::factor_of(const RelatedPlanes& related) const {
+  const PlaneLandmark& a = map_.planes()[related.a];
+  const PlaneLandmark& b = map_.planes()[related.b];
+  const PlaneFrames frames = a.reference == b.reference ? PlaneFrames::kOne : PlaneFrames::kTwo;
+  const FactorOptions& options = options_of(related.relation);
+  if (related.relation == PlaneRelation::kParallel) {
+    return std::make_unique<ParallelPlanesFactor>(options.form, frames, options.sigma * kRadians);
+  }
+  if (related.relation == PlaneRelation::kPerpendicular) {
+    return std::make_unique<PerpendicularPlanesFactor>(frames, options.sigma * kRadians);
+  }
+  // They meet where the second comes nearest to what is known of the first, which is the less sure
+  // the farther that is.
+  const Eigen::Vector3d middle_a = middle_of(a.outline), middle_b = middle_of(b.outline);
+  const Eigen::Vector3d from = map_.keyframes()[b.reference].T_wc.inverse() *
+                               (map_.keyframes()[a.reference].T_wc * middle_a);
+  Eigen::Vector3d place = middle_b;
+  for (const Eigen::Vector3d& corner : b.outline) {
+    if ((corner - from).norm() < (place - from).norm()) place = corner;
+  }
+  const double distance = std::min(middle_a.norm(), middle_b.norm());  // from where they are seen
+  return std::make_unique<CoplanarPlanesFactor>(
+      frames, place, std::hypot(options.sigma * distance, a.sigma_tilt * (place - from).norm()));
 }
 
 double* PlaneBlocks::held_point(PointId id) {

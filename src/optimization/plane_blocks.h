@@ -47,6 +47,8 @@ class PlaneBlocks {
   void add_observations(Entry& entry);
   void add_points(Entry& entry);
   void add_relations();
+  const FactorOptions& options_of(PlaneRelation relation) const;
+  std::unique_ptr<ceres::CostFunction> factor_of(const RelatedPlanes& related) const;
   double* held_point(PointId id);
   Entry* find(PlaneId id);
   void add(std::unique_ptr<ceres::CostFunction> factor, ceres::LossFunction* loss,

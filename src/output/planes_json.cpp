@@ -30,6 +30,7 @@ void write_planes(const std::filesystem::path& file, std::span<const MappedPlane
     json["keyframes"] = plane.seen;
     json["parallel"] = plane.parallel;
     json["perpendicular"] = plane.perpendicular;
+    json["coplanar"] = plane.coplanar;
     root["planes"].push_back(std::move(json));
   }
   write_file(file, root.dump(1) + "\n");

@@ -86,6 +86,7 @@ OptionTable::OptionTable(Options& o) {
   add_factor("point_on_plane", factors.point_on_plane, "", {0.0005, 0.5}, "a point's distance from its plane, as a share of the viewing distance");
   add_factor("parallel", factors.parallel, "degrees", {0.05, 45}, "angle between two planes that are parallel");
   add_factor("perpendicular", factors.perpendicular, "degrees", {0.05, 45}, "angle between two planes that are perpendicular, from 90");
+  add_factor("coplanar", factors.coplanar, "", {0.0005, 0.5}, "distance between two floors that are one, as a share of the viewing distance");
   ObjectFactorOptions& of_objects = o.mapping.adjustment.objects;
   add_factor("object_observation", of_objects.observation, "", {0.01, 100}, "a box and the projection of its object, times the sigma of the box's edges");
   add_factor("object_size", of_objects.size, "", {0.01, 100}, "shape and size of an object, times the sigma of its class");

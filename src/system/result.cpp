@@ -7,6 +7,21 @@
 #include "cairn/mapping/plane_shape.h"
 
 namespace cairn {
+namespace {
+
+std::vector<int>& bound(MappedPlane& plane, PlaneRelation relation) {
+  switch (relation) {
+    case PlaneRelation::kParallel:
+      return plane.parallel;
+    case PlaneRelation::kPerpendicular:
+      return plane.perpendicular;
+    case PlaneRelation::kCoplanar:
+      break;
+  }
+  return plane.coplanar;
+}
+
+}  // namespace
 
 std::vector<MappedPlane> describe_planes(const Map& map) {
   std::vector<MappedPlane> planes;
@@ -28,8 +43,7 @@ std::vector<MappedPlane> describe_planes(const Map& map) {
     for (const RelatedPlanes& r : map.relations()) {
       if (r.a != id && r.b != id) continue;
       const int other = static_cast<int>((r.a == id ? r.b : r.a).slot);
-      (r.relation == PlaneRelation::kParallel ? plane.parallel : plane.perpendicular)
-          .push_back(other);
+      bound(plane, r.relation).push_back(other);
     }
     planes.push_back(std::move(plane));
   });

@@ -153,6 +153,35 @@ TEST(PlanesInAnAdjustment, DoNotMoveWhereAllTheirFactorsAreOff) {
   }
 }
 
+// A patch of the wall that one picture shows nearer than it is.
+TEST(PlanesInAnAdjustment, AreBroughtTogetherIfTheyAreOne) {
+  const auto corners = rectangle({0.5, -0.5, 4}, {1, 0, 0}, {0, 1, 0});
+  for (const bool other_keyframe : {false, true}) {
+    for (const bool use : {false, true}) {
+      const std::vector<SE3> poses = few_poses(3);
+      Map map = map_of(some_points(), poses, 0.3, 31);
+      const auto keyframes = keyframes_of(map);
+      const std::size_t k = other_keyframe ? 1 : 0;
+      const PlaneId a = map.add_plane(keyframes[0], seen_from(poses[0], wall_corners()));
+      const PlaneId b =
+          map.add_plane(keyframes[k], disturbed(seen_from(poses[k], corners), 0, 0.1));
+      map.planes()[a].sigma_tilt = 0.02;
+      map.relations() = {{a, b, PlaneRelation::kParallel}, {a, b, PlaneRelation::kCoplanar}};
+      AdjustmentOptions options;
+      options.planes.observation.sigma = 5;  // what pictures say of distances is unsure
+      options.planes.coplanar.use = use;
+      ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
+      const double apart =
+          std::abs(map.plane_in_world(a).offset() - map.plane_in_world(b).offset());
+      if (use) {
+        EXPECT_LT(apart, 0.06) << other_keyframe;
+      } else {
+        EXPECT_GT(apart, 0.2) << other_keyframe;
+      }
+    }
+  }
+}
+
 // Two patches that pictures show tilted to each other, relative to one keyframe or to two.
 class RelatedPatches : public ::testing::TestWithParam<bool> {
  protected:

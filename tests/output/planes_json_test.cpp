@@ -26,6 +26,7 @@ MappedPlane table() {
   plane.seen = {0.5, 1403636579.763555527};
   plane.parallel = {3};
   plane.perpendicular = {1, 2};
+  plane.coplanar = {4};
   return plane;
 }
 
@@ -61,6 +62,7 @@ TEST(PlanesJson, SaysHowSureAPlaneIsAndWhatItIsBoundTo) {
   EXPECT_EQ(json.at("keyframes").get<std::vector<double>>(), planes[0].seen);
   EXPECT_EQ(json.at("parallel").get<std::vector<int>>(), planes[0].parallel);
   EXPECT_EQ(json.at("perpendicular").get<std::vector<int>>(), planes[0].perpendicular);
+  EXPECT_EQ(json.at("coplanar").get<std::vector<int>>(), planes[0].coplanar);
 }
 
 TEST(PlanesJson, OfAMapWithoutPlanesIsAnEmptyList) {
