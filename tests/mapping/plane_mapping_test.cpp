@@ -102,5 +102,22 @@ TEST_F(MapPlanesOfPictures, ShelvesStayTwoWhenAFarWallIsInThePicture) {
   EXPECT_THAT(planes_of(map), SizeIs(3));
 }
 
+TEST_F(MapPlanesOfPictures, WhatAdjustmentsBringTogetherIsOneLandmark) {
+  const SeenPlane table = seen_from(SE3(), rectangle({-0.5, 0.6, 1}, {1, 0, 0}, {0, 0, 0.5}));
+  const PlaneId a = map.add_plane(map.first(), table);
+  const PlaneId b = map.add_plane(
+      map.first(), seen_from(SE3(), rectangle({-0.5, 0.3, 1}, {1, 0, 0}, {0, 0, 0.5})));
+  fuse_planes(map, options.association);
+  EXPECT_THAT(planes_of(map), SizeIs(2)) << "one stands above the other";
+  for (const PlaneId id : {a, b}) {
+    map.planes()[id].plane = table.plane;
+    map.planes()[id].outline = table.outline;
+    map.planes()[id].sigma_tilt = 0.02;
+  }
+  fuse_planes(map, options.association);
+  EXPECT_THAT(planes_of(map), SizeIs(1));
+  EXPECT_EQ(broken_planes(map), "");
+}
+
 }  // namespace
 }  // namespace cairn

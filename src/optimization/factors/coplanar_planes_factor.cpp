@@ -1,8 +1,5 @@
 #include "cairn/optimization/factors/coplanar_planes_factor.h"
 
-#include <cstdint>
-#include <vector>
-
 #include "cairn/optimization/plane_manifold.h"
 #include "cairn/optimization/se3_manifold.h"
 
@@ -12,9 +9,7 @@ CoplanarPlanesFactor::CoplanarPlanesFactor(PlaneFrames frames, const Eigen::Vect
                                            double sigma)
     : frames_(frames), place_(place), inverse_sigma_(1.0 / sigma) {
   set_num_residuals(1);
-  *mutable_parameter_block_sizes() = frames == PlaneFrames::kTwo
-                                         ? std::vector<std::int32_t>{7, 4, 7, 4}
-                                         : std::vector<std::int32_t>{4, 4};
+  *mutable_parameter_block_sizes() = plane_pair_blocks(frames);
 }
 
 bool CoplanarPlanesFactor::Evaluate(double const* const* parameters, double* residuals,

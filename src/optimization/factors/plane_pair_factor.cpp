@@ -1,8 +1,5 @@
 #include "cairn/optimization/factors/plane_pair_factor.h"
 
-#include <cstdint>
-#include <vector>
-
 #include "cairn/optimization/plane_manifold.h"
 #include "cairn/optimization/se3_manifold.h"
 
@@ -15,11 +12,14 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 }  // namespace
 
+std::vector<std::int32_t> plane_pair_blocks(PlaneFrames frames) {
+  if (frames == PlaneFrames::kTwo) return {7, 4, 7, 4};
+  return {4, 4};
+}
+
 PlanePairFactor::PlanePairFactor(PlaneFrames frames, int residuals) : frames_(frames) {
   set_num_residuals(residuals);
-  *mutable_parameter_block_sizes() = frames == PlaneFrames::kTwo
-                                         ? std::vector<std::int32_t>{7, 4, 7, 4}
-                                         : std::vector<std::int32_t>{4, 4};
+  *mutable_parameter_block_sizes() = plane_pair_blocks(frames);
 }
 
 bool PlanePairFactor::Evaluate(double const* const* parameters, double* residuals,

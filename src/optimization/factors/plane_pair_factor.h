@@ -2,12 +2,18 @@
 
 #include <ceres/cost_function.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "cairn/geometry/plane.h"
 
 namespace cairn {
 
 /// Whether two planes hang on two keyframes or on one and the same.
 enum class PlaneFrames { kOne, kTwo };
+
+/// Sizes of the blocks of a factor between two planes, in their order.
+std::vector<std::int32_t> plane_pair_blocks(PlaneFrames frames);
 
 /// A factor between the normals of two planes. Blocks: T_wr1, π_1, T_wr2, π_2 with two frames, and
 /// with one frame, whose pose drops out, π_1, π_2 (see SE3Manifold, PlaneManifold). What it says of
