@@ -13,15 +13,14 @@ namespace cairn {
 namespace {
 
 // Shares of the distance. A picture whose depth is off by a fifth is so all over: where it shows
-// two floors, steps of more than this show. Where none does, this much the scale may have drifted.
+// two floors, steps of more than the first show. In the map they may have drifted by the second.
 constexpr double kStep = 0.06, kDrift = 0.4;
 
-bool on_one_level(const PlaneObservation& a, const PlaneObservation& b) {
-  const double distance = std::min(a.centroid.norm(), b.centroid.norm());
-  const Eigen::Vector3d between = b.centroid - a.centroid;
-  return a.normal.dot(b.normal) > std::cos(kMaxImpliedAngle) &&
-         std::abs(a.normal.dot(between)) < kStep * distance &&
-         std::abs(b.normal.dot(between)) < kStep * distance;
+// Two planes, each by a place on it, without a step of more than `most` between them.
+bool is_one_level(const Plane& a, const Eigen::Vector3d& on_a, const Plane& b,
+                  const Eigen::Vector3d& on_b, double most) {
+  return a.normal().dot(b.normal()) > std::cos(kMaxImpliedAngle) &&
+         std::abs(a.signed_distance(on_b)) < most && std::abs(b.signed_distance(on_a)) < most;
 }
 
 // Do pictures that show both, if there are any, show one plane?
@@ -31,7 +30,10 @@ bool shown_as_one(const PlaneLandmark& a, const PlaneLandmark& b) {
     for (const PlaneObservation& of_b : b.observations) {
       if (of_a.keyframe != of_b.keyframe) continue;
       ++together;
-      as_one += on_one_level(of_a, of_b);
+      const double distance = std::min(of_a.centroid.norm(), of_b.centroid.norm());
+      as_one +=
+          is_one_level(Plane::through(of_a.centroid, of_a.normal), of_a.centroid,
+                       Plane::through(of_b.centroid, of_b.normal), of_b.centroid, kStep * distance);
     }
   }
   return 2 * as_one >= together;
@@ -41,13 +43,11 @@ bool shown_as_one(const PlaneLandmark& a, const PlaneLandmark& b) {
 bool are_one_level(const Map& map, PlaneId id_a, PlaneId id_b) {
   const PlaneLandmark &a = map.planes()[id_a], &b = map.planes()[id_b];
   if (a.label() != b.label() || !is_ended_by_walls(a.label())) return false;
-  const Plane plane_a = map.plane_in_world(id_a), plane_b = map.plane_in_world(id_b);
-  if (plane_a.normal().dot(plane_b.normal()) < std::cos(kMaxImpliedAngle)) return false;
-  const Eigen::Vector3d middle_a = middle_of(map.outline_in_world(id_a)),
-                        middle_b = middle_of(map.outline_in_world(id_b));
-  const double most = kDrift * std::min(middle_of(a.outline).norm(), middle_of(b.outline).norm());
-  return std::abs(plane_a.signed_distance(middle_b)) < most &&
-         std::abs(plane_b.signed_distance(middle_a)) < most && shown_as_one(a, b);
+  const double distance = std::min(middle_of(a.outline).norm(), middle_of(b.outline).norm());
+  return is_one_level(map.plane_in_world(id_a), middle_of(map.outline_in_world(id_a)),
+                      map.plane_in_world(id_b), middle_of(map.outline_in_world(id_b)),
+                      kDrift * distance) &&
+         shown_as_one(a, b);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ bool seen_together(const PlaneLandmark& a, const PlaneLandmark& b);
 /// Which confirmed planes are parallel or perpendicular, and which floors or ceilings are one. A
 /// relation of angles begins where the angle is within two σ of it, and ends beyond three; where
 /// only drift stands between two upright planes, within what buildings leave no doubt about. Floors
-/// are one where pictures that show both show no step, however far apart drift has put them.
+/// are one where pictures that show both show no step, and the map has them not too far apart.
 void relate_planes(Map& map, const PlaneMappingOptions& options);
 
 }  // namespace cairn
