@@ -177,10 +177,13 @@ void face_viewers(const Map& map, PlaneLandmark& landmark) {
   if (2 * behind > std::ssize(landmark.observations)) landmark.plane = landmark.plane.flipped();
 }
 
+// By corners: what they missed is found also at rims and in the blur, where no detector could tell.
 double detection_rate(const Map& map, const PlaneLandmark& landmark) {
   std::map<KeyframeId, int> points_seen;
   for (const PointId p : landmark.points) {
-    for (const Observation& o : map.points()[p].observations) ++points_seen[o.keyframe];
+    for (const Observation& o : map.points()[p].observations) {
+      if (map.is_corner(o)) ++points_seen[o.keyframe];
+    }
   }
   int chances = 0, detections = 0;
   for (const auto& [keyframe, count] : points_seen) {

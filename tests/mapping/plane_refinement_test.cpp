@@ -281,6 +281,19 @@ TEST_F(RefineLandmark, ShowsInHowManyOfThePicturesOfItsPointsItWasDetected) {
   EXPECT_NEAR(landmark(see_wall(1, {wall}, {wall})).detected, 1.0 / 3, 1e-9);
 }
 
+TEST_F(RefineLandmark, PicturesThatShowItsPointsOnlyWhereCornersMissedThemHaveNoSay) {
+  const auto wall = indices(0, 36);
+  const PlaneId id = see_wall(1, {wall}, {wall});
+  for (const KeyframeId other : keyframes_of(map)) {
+    if (other == map.first()) continue;
+    auto frame = std::make_shared<Frame>(*map.keyframes()[other].frame);
+    frame->added = frame->size();
+    map.keyframes()[other].frame = frame;
+  }
+  refine_landmark(map, id, 0.01, false);
+  EXPECT_EQ(landmark(id).detected, 1);
+}
+
 TEST_F(RefineLandmark, IsDetectedWhereNoPictureShowsEnoughOfItsPointsToDenyIt) {
   EXPECT_EQ(landmark(see_wall(3, {{}}, {{}})).detected, 1);
 }
