@@ -117,6 +117,11 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline) {
   return outline.empty() ? sum : Eigen::Vector3d(sum / double(outline.size()));
 }
 
+// Outlines are in the reference's frame.
+double viewing_distance(const PlaneLandmark& landmark) {
+  return middle_of(landmark.outline).norm();
+}
+
 double angle_off(PlaneRelation relation, const Plane& a, const Plane& b) {
   const double angle = angle_between(a, b);
   return relation == PlaneRelation::kPerpendicular ? std::numbers::pi / 2 - angle : angle;

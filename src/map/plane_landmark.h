@@ -127,6 +127,9 @@ std::vector<Eigen::Vector3d> common_outline(
 /// The mean of an outline's corners; the origin where there are none.
 Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& outline);
 
+/// From where a landmark was seen first to its middle, units of the map.
+double viewing_distance(const PlaneLandmark& landmark);
+
 enum class PlaneRelation { kParallel, kPerpendicular, kCoplanar };
 
 /// How far the normals of two planes are from a relation, radians, whichever sides they face.

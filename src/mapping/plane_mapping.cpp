@@ -60,11 +60,6 @@ PlaneAssociationOptions for_picture(const PlaneAssociationOptions& options, bool
   return result;
 }
 
-// From where a landmark is seen to its middle.
-double viewing_distance(const Map& map, PlaneId id) {
-  return middle_of(map.planes()[id].outline).norm();  // outlines are in the reference's frame
-}
-
 }  // namespace
 
 std::vector<PointId> map_planes(Map& map, KeyframeId id, const KeyframePerception& seen,
@@ -126,7 +121,7 @@ void fuse_planes(Map& map, const PlaneAssociationOptions& options) {
     for (std::size_t k = i + 1; k < ids.size(); ++k) {
       if (!map.planes().contains(ids[i]) || !map.planes().contains(ids[k])) continue;
       const double distance =
-          std::min(viewing_distance(map, ids[i]), viewing_distance(map, ids[k]));
+          std::min(viewing_distance(map.planes()[ids[i]]), viewing_distance(map.planes()[ids[k]]));
       if (!one_surface(map, ids[i], ids[k], distance, options)) continue;
       // The better known one stays.
       const bool first = map.planes()[ids[i]].sightings >= map.planes()[ids[k]].sightings;

@@ -43,7 +43,7 @@ bool shown_as_one(const PlaneLandmark& a, const PlaneLandmark& b) {
 bool are_one_level(const Map& map, PlaneId id_a, PlaneId id_b) {
   const PlaneLandmark &a = map.planes()[id_a], &b = map.planes()[id_b];
   if (a.label() != b.label() || !is_ended_by_walls(a.label())) return false;
-  const double distance = std::min(middle_of(a.outline).norm(), middle_of(b.outline).norm());
+  const double distance = std::min(viewing_distance(a), viewing_distance(b));
   return is_one_level(map.plane_in_world(id_a), middle_of(map.outline_in_world(id_a)),
                       map.plane_in_world(id_b), middle_of(map.outline_in_world(id_b)),
                       kDrift * distance) &&

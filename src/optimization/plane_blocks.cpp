@@ -145,14 +145,13 @@ std::unique_ptr<ceres::CostFunction> PlaneBlocks::factor_of(const RelatedPlanes&
   }
   // They meet where the second comes nearest to what is known of the first, which is the less sure
   // the farther that is.
-  const Eigen::Vector3d middle_a = middle_of(a.outline), middle_b = middle_of(b.outline);
   const Eigen::Vector3d from = map_.keyframes()[b.reference].T_wc.inverse() *
-                               (map_.keyframes()[a.reference].T_wc * middle_a);
-  Eigen::Vector3d place = middle_b;
+                               (map_.keyframes()[a.reference].T_wc * middle_of(a.outline));
+  Eigen::Vector3d place = middle_of(b.outline);
   for (const Eigen::Vector3d& corner : b.outline) {
     if ((corner - from).norm() < (place - from).norm()) place = corner;
   }
-  const double distance = std::min(middle_a.norm(), middle_b.norm());  // from where they are seen
+  const double distance = std::min(viewing_distance(a), viewing_distance(b));
   return std::make_unique<CoplanarPlanesFactor>(
       frames, place, std::hypot(options.sigma * distance, a.sigma_tilt * (place - from).norm()));
 }
