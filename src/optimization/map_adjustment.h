@@ -16,6 +16,7 @@ struct AdjustmentOptions {
   int fixed = 30;   ///< keyframes that hold it, at most
   int local_iterations = 8;
   int full_iterations = 40;
+  int full_threads = 1;  ///< with more, sums come out in an order that changes from run to run
   bool estimate_readout = true;  ///< how long a rolling shutter takes to read a picture
   PlaneFactorOptions planes;
   ObjectFactorOptions objects;

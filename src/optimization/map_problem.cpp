@@ -38,6 +38,7 @@ MapProblem::MapProblem(Map& map, std::vector<KeyframeId> free, std::vector<Keyfr
                        bool full, bool refine_lens)
     : map_(map),
       full_(full),
+      threads_(full ? options.full_threads : 1),
       refine_lens_(refine_lens),
       lens_(map.lens()),
       estimate_readout_(options.estimate_readout && !refine_lens),
@@ -66,7 +67,7 @@ AdjustmentSummary MapProblem::solve(int iterations, double tolerance, const Stop
   options.linear_solver_ordering = ordering_;
   options.max_num_iterations = iterations;
   options.function_tolerance = tolerance;
-  options.num_threads = 1;  // more would sum in an order that changes from run to run
+  options.num_threads = threads_;
   options.logging_type = ceres::SILENT;
   AskToStop ask(stop);
   if (stop) options.callbacks.push_back(&ask);

@@ -62,7 +62,9 @@ class MapProblem {
   void collect();
 
   Map& map_;
-  bool full_, refine_lens_;
+  bool full_;
+  int threads_;
+  bool refine_lens_;
   LensCorrection lens_;
   bool estimate_readout_;
   double readout_;

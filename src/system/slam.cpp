@@ -1,6 +1,7 @@
 #include "cairn/system/slam.h"
 
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -37,6 +38,10 @@ Options resolved(Options options, const Camera& camera) {
   options.mapping.planes.manhattan =
       options.landmarks == Landmarks::kPpm || options.landmarks == Landmarks::kFull;
   options.mapping.objects.supports = options.landmarks == Landmarks::kFull;
+  if (options.pace == Pace::kRealtime) {  // no two runs are the same there
+    options.mapping.adjustment.full_threads =
+        options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  }
   return options;
 }
 

@@ -75,6 +75,21 @@ TEST(FullAdjustment, BringsADisturbedMapBackToTheTruth) {
   EXPECT_EQ(broken_links(map), "");
 }
 
+TEST(FullAdjustment, FindsTheSameWithManyThreadsButForRounding) {
+  std::vector<double> found[2];
+  for (const int threads : {1, 4}) {
+    PointWorld world(31, {.noise = 0.2});
+    Map map = testing::true_map(world, walk(6, 0.3));
+    disturb(map, 1, 0.02, 0.05, 0.05);
+    AdjustmentOptions options;
+    options.full_threads = threads;
+    ASSERT_TRUE(adjust_fully(map, options, nullptr).usable);
+    found[threads > 1] = numbers_of(map);
+  }
+  ASSERT_EQ(found[0].size(), found[1].size());
+  for (std::size_t i = 0; i < found[0].size(); ++i) EXPECT_NEAR(found[0][i], found[1][i], 1e-5);
+}
+
 // Frames hang on their keyframes by lengths in units of the map.
 TEST(FullAdjustment, KeepsTheUnitOfTheMap) {
   PointWorld world(38);
