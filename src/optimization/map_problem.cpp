@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace cairn {
 namespace {
@@ -31,6 +32,11 @@ class AskToStop : public ceres::IterationCallback {
   const StopAsked& stop_;
 };
 
+// Ceres warns, past our log, where it is given more threads than there are cores.
+int usable_threads(int asked) {
+  return std::clamp(asked, 1, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
+
 }  // namespace
 
 MapProblem::MapProblem(Map& map, std::vector<KeyframeId> free, std::vector<KeyframeId> fixed,
@@ -38,7 +44,7 @@ MapProblem::MapProblem(Map& map, std::vector<KeyframeId> free, std::vector<Keyfr
                        bool full, bool refine_lens)
     : map_(map),
       full_(full),
-      threads_(full ? options.full_threads : 1),
+      threads_(full ? usable_threads(options.full_threads) : 1),
       refine_lens_(refine_lens),
       lens_(map.lens()),
       estimate_readout_(options.estimate_readout && !refine_lens),
