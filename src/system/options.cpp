@@ -48,6 +48,8 @@ OptionTable::OptionTable(Options& o) {
   add("mapping.local_iterations", o.mapping.adjustment.local_iterations, "steps", {1, 100}, "of a local adjustment, at most");
   add("mapping.full_iterations", o.mapping.adjustment.full_iterations, "steps", {1, 500}, "of the full adjustment, at most");
 
+  add("perception.every_frame", o.look_at_every_frame, "look at every picture, not only at those of keyframes; tracking waits for the detector");
+
   PlaneMappingOptions& planes = o.mapping.planes;
   add("planes.th_high", planes.association.th_high, "keypoints", {1, 1000}, "shared by a detected plane and one of the map that make them one");
   add("planes.th_low", planes.association.th_low, "keypoints", {0, 1000}, "shared with none: fewer make a detected plane a new one");

@@ -30,6 +30,7 @@ struct Options {
   InitializerOptions initialization;
   TrackingOptions tracking;
   MappingOptions mapping;
+  bool look_at_every_frame = false;  ///< not only at keyframes; `process` waits for the detector
   ObjectDetectorOptions object_detector;
 };
 

@@ -43,17 +43,17 @@ void PerceptionWorker::look(std::shared_ptr<const Frame> frame, const Perception
 
 std::vector<SeenPlane> PerceptionWorker::planes_now(std::shared_ptr<const Frame> frame,
                                                     const PerceptionInput& input) {
-  if (!see_now(std::move(frame), input)) return {};
+  if (!look_now(std::move(frame), input)) return {};
   return seen_now_->planes;
 }
 
 std::vector<SeenObject> PerceptionWorker::objects_now(std::shared_ptr<const Frame> frame,
                                                       const PerceptionInput& input) {
-  if (!see_now(std::move(frame), input)) return {};
+  if (!look_now(std::move(frame), input)) return {};
   return seen_now_->objects;
 }
 
-bool PerceptionWorker::see_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input) {
+bool PerceptionWorker::look_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input) {
   if (seen_now_ && seen_now_->frame == frame) return true;
   const std::unique_lock busy(detector_mutex_, std::try_to_lock);
   if (!busy) return false;

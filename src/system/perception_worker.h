@@ -16,8 +16,8 @@ namespace cairn {
 
 /// Looks at the pictures of keyframes: at once, within the call (lockstep), or on a thread of its
 /// own (realtime), where a picture that comes while another still waits takes its place: no one
-/// waits, and the newest is looked at. What was passed over is kept for `catch_up`. Only who asks
-/// for `planes_now` or `objects_now` gets them within the call.
+/// waits, and the newest is looked at. What was passed over is kept for `catch_up`. `look_now` and
+/// those who ask for `planes_now` or `objects_now` wait.
 class PerceptionWorker {
  public:
   /// `deliver` is called with each result, in realtime from the worker's thread, or from the
@@ -27,11 +27,13 @@ class PerceptionWorker {
   ~PerceptionWorker();
 
   void look(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
-  /// The planes of a frame, found within the call; nothing while another picture is looked at. If
-  /// `look` is asked for the same frame afterwards, this is what it delivers.
+  /// Looks within the call; false, and nothing seen, while another picture is looked at. If `look`
+  /// is asked for the same frame afterwards, this is what it delivers.
+  bool look_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
+  /// The planes of a frame, found by `look_now`; one look serves all who ask.
   std::vector<SeenPlane> planes_now(std::shared_ptr<const Frame> frame,
                                     const PerceptionInput& input);
-  /// Likewise its objects; one look serves both.
+  /// Likewise its objects.
   std::vector<SeenObject> objects_now(std::shared_ptr<const Frame> frame,
                                       const PerceptionInput& input);
   /// What was found within the last call since it was last asked, with its masks.
@@ -52,8 +54,6 @@ class PerceptionWorker {
   void loop();
   // With the mutex held.
   void pass_over(Task task);
-  // Into `seen_now_`; false while another picture is looked at.
-  bool see_now(std::shared_ptr<const Frame> frame, const PerceptionInput& input);
   // With the detector's mutex held, once threaded; what it says goes to `detected`.
   KeyframePerception see(const Task& task, DetectedFrame& detected);
 

@@ -189,6 +189,7 @@ FrameResult Slam::process(const cv::Mat& picture, double timestamp, const cv::Ma
   } else {
     s.lose(frame, record);
   }
+  if (s.perception && s.options.look_at_every_frame) s.perception->look_now(frame, input);
   if (record.keyframe) {
     const Stopwatch of_mapping;
     if (s.perception) s.perception->look(frame, input);

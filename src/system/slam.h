@@ -34,7 +34,7 @@ struct FrameResult {
   std::vector<Feature> features;  ///< what was seen, for overlays
   /// What the plane detector saw in this very picture, with its masks, in the camera frame and the
   /// detector's metres: in lockstep of keyframes. In realtime it mostly says so when the picture is
-  /// gone; then nothing is here.
+  /// gone; then nothing is here. With Options::look_at_every_frame, of all frames in both.
   std::vector<DetectedPlane> planes;
   std::vector<DetectedObject> objects;  ///< likewise
 };

@@ -218,6 +218,35 @@ TEST(Slam, InLockstepADetectorThatKnowsGivesTheFloorAndMetres) {
   EXPECT_NEAR(std::abs(result.planes[0].d), T_w0.translation().z(), 0.05);
 }
 
+TEST(Slam, EveryFrameMayBeLookedAtAndTheMapStaysTheSame) {
+  const auto run = [](bool every_frame, KnowingDetector::Record& record) {
+    Options options = lockstep(1);
+    options.look_at_every_frame = every_frame;
+    Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
+    for (int i = 0; i < kFrames; ++i) {
+      const FrameResult frame = slam.process(pictures()[i], i / 30.0);
+      EXPECT_EQ(frame.planes.empty(), !every_frame && !frame.record.keyframe);
+    }
+    return numbers_of(slam.finish());
+  };
+  KnowingDetector::Record of_keyframes, of_all;
+  const std::vector<double> numbers = run(false, of_keyframes);
+  EXPECT_EQ(run(true, of_all), numbers);
+  EXPECT_EQ(of_all.times.size(), std::size_t(kFrames));
+  EXPECT_LT(of_keyframes.times.size(), std::size_t(kFrames));
+}
+
+TEST(Slam, InRealtimeEveryFrameMayBeLookedAtWithinItsCall) {
+  KnowingDetector::Record record;
+  Options options;
+  options.pace = Pace::kRealtime;
+  options.look_at_every_frame = true;
+  Slam slam(scene().camera(), options, std::make_unique<KnowingDetector>(record));
+  for (int i = 0; i < kFrames; ++i) slam.process(pictures()[i], i / 30.0);
+  EXPECT_EQ(record.times.size(), std::size_t(kFrames));
+  EXPECT_EQ(record.threads, std::set{std::this_thread::get_id()});
+}
+
 TEST(Slam, AGivenScaleMultipliesAllLengths) {
   const auto run = [](double factor) {
     KnowingDetector::Record record;
