@@ -102,8 +102,13 @@ PointId Map::add_point(const Eigen::Vector3d& position) {
 
 void Map::erase_point(PointId id) {
   set_plane_of(id, {});
-  for (const Observation& o : points_[id].observations) {
+  const std::vector<Observation>& observations = points_[id].observations;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const Observation& o = observations[i];
     keyframes_[o.keyframe].points[o.keypoint] = {};
+    for (std::size_t k = 0; k < i; ++k) {
+      covisibility_.count(o.keyframe, observations[k].keyframe, -1);
+    }
   }
   points_.erase(id);
 }
@@ -114,6 +119,7 @@ void Map::add_observation(PointId point, KeyframeId keyframe, std::uint32_t keyp
   assert(keypoint_of(point, keyframe) < 0);
   keyframes_[keyframe].points[keypoint] = point;
   std::vector<Observation>& observations = points_[point].observations;
+  for (const Observation& o : observations) covisibility_.count(keyframe, o.keyframe, 1);
   // Doubling, as push_back does, would waste too much over thousands of points.
   if (observations.size() == observations.capacity()) observations.reserve(observations.size() + 2);
   observations.push_back({keyframe, keypoint, patch});
@@ -125,6 +131,7 @@ void Map::erase_observation(PointId id, KeyframeId keyframe) {
   assert(observation != nullptr);
   keyframes_[keyframe].points[observation->keypoint] = {};
   observations.erase(observations.begin() + (observation - observations.data()));
+  for (const Observation& o : observations) covisibility_.count(keyframe, o.keyframe, -1);
   if (observations.size() < 2) erase_point(id);
 }
 
@@ -210,18 +217,9 @@ void Map::update_descriptor(PointId id) {
 
 std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int min_shared,
                                                        std::size_t most) const {
-  std::vector<std::pair<KeyframeId, int>> counts;  // by slot
-  for (const PointId p : keyframes_[id].points) {
-    if (!p.valid()) continue;
-    for (const Observation& o : points_[p].observations) {
-      if (o.keyframe.slot >= counts.size()) counts.resize(o.keyframe.slot + 1, {{}, 0});
-      counts[o.keyframe.slot].first = o.keyframe;
-      ++counts[o.keyframe.slot].second;
-    }
-  }
   std::vector<std::pair<KeyframeId, int>> result;
-  for (const auto& entry : counts) {
-    if (entry.second >= std::max(min_shared, 1) && entry.first != id) result.push_back(entry);
+  for (const auto& entry : covisibility_.of(id)) {
+    if (entry.second >= min_shared) result.push_back(entry);
   }
   std::sort(result.begin(), result.end(), [&](const auto& a, const auto& b) {
     if (a.second != b.second) return a.second > b.second;

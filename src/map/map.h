@@ -8,6 +8,7 @@
 
 #include "cairn/geometry/lens_correction.h"
 #include "cairn/geometry/se3.h"
+#include "cairn/map/covisibility.h"
 #include "cairn/map/frame.h"
 #include "cairn/map/ids.h"
 #include "cairn/map/object_landmark.h"
@@ -225,6 +226,7 @@ class Map {
   double readout_ = 0, readout_estimate_ = 0;
   SlotMap<Keyframe, KeyframeId> keyframes_;
   SlotMap<MapPoint, PointId> points_;
+  Covisibility covisibility_;
   SlotMap<PlaneLandmark, PlaneId> planes_;
   std::vector<RelatedPlanes> relations_;
   SlotMap<ObjectLandmark, ObjectId> objects_;

@@ -1,16 +1,29 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "cairn/map/map.h"
 
 namespace cairn::testing {
 
-/// What is wrong with the links between keyframes and points, in words; empty if nothing is.
+/// What is wrong with the links between keyframes and points, and with what is counted of them, in
+/// words; empty if nothing is.
 inline std::string broken_links(const Map& map) {
   std::string wrong;
   auto name = [](auto id) { return std::to_string(id.slot) + "." + std::to_string(id.generation); };
   map.keyframes().for_each([&](KeyframeId id, const Keyframe& keyframe) {
+    std::map<KeyframeId, int> shared;
+    for (const PointId p : keyframe.points) {
+      const MapPoint* point = map.points().find(p);
+      if (point == nullptr) continue;
+      for (const Observation& o : point->observations) shared[o.keyframe] += o.keyframe != id;
+    }
+    shared.erase(id);
+    const auto counted = map.covisible(id, 0);
+    if (std::map<KeyframeId, int>(counted.begin(), counted.end()) != shared) {
+      wrong += "keyframe " + name(id) + " shares other points than are counted\n";
+    }
     for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
       const PointId p = keyframe.points[i];
       if (!p.valid()) continue;

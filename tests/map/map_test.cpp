@@ -146,6 +146,7 @@ TEST(Map, CovisibleKeyframesComeByWhatTheyShareThenByAge) {
   EXPECT_EQ(map.covisible(centre, 2), (Shared{{most, 6}, {old, 3}, {young, 3}}));
   EXPECT_EQ(map.covisible(centre, 1).back(), std::pair(hardly, 1));
   EXPECT_EQ(map.covisible(centre, 1, 2), (Shared{{most, 6}, {old, 3}}));
+  EXPECT_EQ(broken_links(map), "");
 }
 
 TEST(Map, GeometryOfAPointIsTheMeanOfItsViews) {
