@@ -10,6 +10,7 @@
 #include "cairn/map/stopwatch.h"
 #include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/missed_points.h"
+#include "cairn/mapping/object_support.h"
 #include "cairn/mapping/plane_confirmation.h"
 #include "cairn/mapping/plane_mapping.h"
 #include "cairn/mapping/point_alignment.h"
@@ -223,6 +224,9 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();
+  if (const double gap = options_.objects.max_gap; options_.objects.supports) {
+    find_supports(map_, gap, gap);  // at last nothing stands on what it does not touch
+  }
   look_around(map_.newest());
   return summary;
 }

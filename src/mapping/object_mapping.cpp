@@ -278,7 +278,7 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
   for (const ObjectId object : known) join_guesses(map, object, options.birth, refusals);
   fuse_objects(map);
   let_die(map, id, options);
-  if (options.supports) find_supports(map, options.max_gap);
+  if (options.supports) find_supports(map, options.max_gap, 2 * options.max_gap);
 }
 
 void settle_objects(Map& map, const ObjectMappingOptions& options) {
@@ -303,7 +303,7 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
     if (!landmark.confirmed) map.erase_object(id);
   });
   fuse_objects(map);
-  if (options.supports) find_supports(map, options.max_gap);
+  if (options.supports) find_supports(map, options.max_gap, 2 * options.max_gap);
   log_identities(map);
 }
 

@@ -47,7 +47,7 @@ bool over(const Surface& surface, const Eigen::Vector3d& x) {
 
 }  // namespace
 
-void find_supports(Map& map, double max_gap) {
+void find_supports(Map& map, double max_gap, double most_held) {
   if (!(map.units_a_true_metre() > 0)) return;
   const std::vector<Surface> all = surfaces(map);
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
@@ -59,7 +59,7 @@ void find_supports(Map& map, double max_gap) {
       const Eigen::Vector3d n = surface.plane.normal();
       const double height = surface.plane.signed_distance(ellipsoid.centre());
       const double gap = std::abs(height - reach(ellipsoid, n)) / map.units_a_true_metre();
-      const double most = (surface.id == before ? 2 : 1) * max_gap;
+      const double most = surface.id == before ? most_held : max_gap;
       if (height <= 0 || gap > most || gap >= least || !over(surface, ellipsoid.centre())) continue;
       least = gap;
       landmark.support = surface.id;

@@ -278,11 +278,16 @@ TEST_F(MapObjectsOfPictures, AThingStandsOnTheTableUnderItAndNotOnOneFarBelow) {
     return id;
   };
   const PlaneId low = add_table(0.4);
-  find_supports(map, 0.05);
+  find_supports(map, 0.05, 0.1);
   EXPECT_FALSE(map.objects()[cup].support.valid());
   const PlaneId near = add_table(0.065);
-  find_supports(map, 0.05);
+  find_supports(map, 0.05, 0.1);
   EXPECT_EQ(map.objects()[cup].support, near);
+  find_supports(map, 0, 0.05);
+  EXPECT_EQ(map.objects()[cup].support, near) << "it is held longer than it would be taken";
+  find_supports(map, 0, 0);
+  EXPECT_FALSE(map.objects()[cup].support.valid());
+  find_supports(map, 0.05, 0.1);
   map.erase_plane(near);
   EXPECT_FALSE(map.objects()[cup].support.valid());
   map.erase_plane(low);
