@@ -202,6 +202,8 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   set_motions(map_, motions);
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
+  const double gap = options_.objects.max_gap;
+  if (options_.objects.supports) find_supports(map_, gap, 2 * gap);
   OdometryBlocks path(map_);  // one adjustment after the other must not lead away from it
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, stop, &path);
   if (options_.adjustment.estimate_readout) find_motions(map_);
@@ -224,9 +226,8 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();
-  if (const double gap = options_.objects.max_gap; options_.objects.supports) {
-    find_supports(map_, gap, gap);  // at last nothing stands on what it does not touch
-  }
+  // At last nothing stands on what it does not touch.
+  if (options_.objects.supports) find_supports(map_, gap, gap);
   look_around(map_.newest());
   return summary;
 }

@@ -303,7 +303,6 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
     if (!landmark.confirmed) map.erase_object(id);
   });
   fuse_objects(map);
-  if (options.supports) find_supports(map, options.max_gap, 2 * options.max_gap);
   log_identities(map);
 }
 

@@ -29,7 +29,8 @@ struct ObjectMappingOptions {
 void map_objects(Map& map, KeyframeId keyframe, const KeyframePerception& seen,
                  const ObjectMappingOptions& options, std::map<std::string, int>& refusals);
 
-/// At the end: objects are fitted anew to all their boxes, and those that do not hold go.
+/// At the end: objects are fitted anew to all their boxes, and those that do not hold go. What they
+/// stand on is to be found anew (find_supports).
 void settle_objects(Map& map, const ObjectMappingOptions& options);
 
 }  // namespace cairn

@@ -17,7 +17,7 @@ inline std::string broken_links(const Map& map) {
     for (const PointId p : keyframe.points) {
       const MapPoint* point = map.points().find(p);
       if (point == nullptr) continue;
-      for (const Observation& o : point->observations) shared[o.keyframe] += o.keyframe != id;
+      for (const Observation& o : point->observations) ++shared[o.keyframe];
     }
     shared.erase(id);
     const auto counted = map.covisible(id, 0);
