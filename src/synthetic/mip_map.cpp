@@ -61,21 +61,28 @@ MipMap::MipMap(const Texture& texture)
   mean_ = Colour(picture(0, 0)[0], picture(0, 0)[1], picture(0, 0)[2]);
 }
 
-Colour MipMap::sample(const Eigen::Vector2f& uv, float footprint, float dither) const {
-  const float exponent = log2_estimate(std::max(footprint * texels_per_metre_, 1e-6f)) + dither;
-  const int index = std::clamp(int(std::floor(exponent)), 0, int(levels_.size()) - 1);
-  const Level& level = levels_[std::size_t(index)];
-  const float turns_x = uv.x() * repeats_x_, turns_y = uv.y() * repeats_y_;
-  const float x = (turns_x - std::floor(turns_x)) * float(level.width) - 0.5f;
-  const float y = (turns_y - std::floor(turns_y)) * float(level.height) - 0.5f;
+Colour MipMap::sample(const Eigen::Vector2f& uv, float footprint) const {
+  const float exponent = log2_estimate(std::max(footprint * texels_per_metre_, 1e-6f));
+  const float last = float(levels_.size() - 1);
+  const float level = std::clamp(exponent, 0.f, last), finer = std::floor(level);
+  const float coarser_share = level - finer;
+  const Eigen::Vector2f turns(uv.x() * repeats_x_, uv.y() * repeats_y_);
+  const Colour fine = levels_[std::size_t(finer)].at(turns);
+  if (coarser_share == 0) return fine;
+  return fine + coarser_share * (levels_[std::size_t(finer) + 1].at(turns) - fine);
+}
+
+Colour MipMap::Level::at(const Eigen::Vector2f& turns) const {
+  const float x = (turns.x() - std::floor(turns.x())) * float(width) - 0.5f;
+  const float y = (turns.y() - std::floor(turns.y())) * float(height) - 0.5f;
   const float left = std::floor(x), top = std::floor(y);
   const float u = x - left, v = y - top;
-  const int x1 = left + 1 < float(level.width) ? int(left) + 1 : 0;
-  const int y1 = top + 1 < float(level.height) ? int(top) + 1 : 0;
-  const int x0 = left < 0 ? level.width - 1 : int(left);
-  const int y0 = top < 0 ? level.height - 1 : int(top);
-  const Texel* rows[2] = {&level.texels[std::size_t(y0) * std::size_t(level.width)],
-                          &level.texels[std::size_t(y1) * std::size_t(level.width)]};
+  const int x1 = left + 1 < float(width) ? int(left) + 1 : 0;
+  const int y1 = top + 1 < float(height) ? int(top) + 1 : 0;
+  const int x0 = left < 0 ? width - 1 : int(left);
+  const int y0 = top < 0 ? height - 1 : int(top);
+  const Texel* rows[2] = {&texels[std::size_t(y0) * std::size_t(width)],
+                          &texels[std::size_t(y1) * std::size_t(width)]};
   const float w00 = (1 - u) * (1 - v), w10 = u * (1 - v), w01 = (1 - u) * v, w11 = u * v;
   Colour root;
   for (int c = 0; c < 3; ++c) {

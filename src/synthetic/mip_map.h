@@ -14,9 +14,10 @@ class MipMap {
  public:
   explicit MipMap(const Texture& texture);
 
-  /// The colour around `uv` (metres) averaged over about `footprint` metres. `dither` in [0, 1)
-  /// chooses between the two nearest levels, so that the mean over several is a blend of both.
-  Colour sample(const Eigen::Vector2f& uv, float footprint, float dither) const;
+  /// The colour around `uv` (metres) averaged over about `footprint` metres: a blend of the two
+  /// nearest levels. (Not one sample of a pixel from this, the next from that: the sharper one says
+  /// where things are, and they would creep by a tenth of a pixel as one comes nearer.)
+  Colour sample(const Eigen::Vector2f& uv, float footprint) const;
   /// Of the whole.
   const Colour& mean() const { return mean_; }
 
@@ -25,6 +26,9 @@ class MipMap {
   struct Level {
     int width = 0, height = 0;
     std::vector<Texel> texels;
+
+    /// Between texels. `turns`: whole ones are the same place again.
+    Colour at(const Eigen::Vector2f& turns) const;
   };
 
   float texels_per_metre_;

@@ -78,7 +78,7 @@ Vector3f Shading::normal(const RayHit& hit, const Vector3f& direction) const {
 }
 
 Colour Shading::colour(const RayHit& hit, const Vector3f& origin, const Vector3f& direction,
-                       float pixel, float dither, Highlight& nearby) const {
+                       float pixel, Highlight& nearby) const {
   if (!hit.found()) return sky(direction);
   const auto thing = std::size_t(hit.thing);
   const Mesh& mesh = lit_.meshes[thing];
@@ -96,8 +96,7 @@ Colour Shading::colour(const RayHit& hit, const Vector3f& origin, const Vector3f
   if (surface.texture != nullptr) {
     const Vector2f uv = w * a.uv + hit.u * b.uv + hit.v * c.uv;
     const float cosine = std::max(0.05f, -normal.dot(direction));
-    const Colour print =
-        surface.texture->sample(uv, hit.distance * pixel / std::sqrt(cosine), dither);
+    const Colour print = surface.texture->sample(uv, hit.distance * pixel / std::sqrt(cosine));
     albedo = albedo.cwiseProduct(print);
     emission = emission.cwiseProduct(print);
   }

@@ -25,10 +25,10 @@ class Shading {
   Shading(const Scene& scene, const LitMeshes& lit);
 
   /// `direction`: unit, world frame. `pixel`: what a sample covers at a distance of one, in metres.
-  /// `dither`: see MipMap::sample. `nearby`: of another sample of this pixel, and then of this one:
-  /// highlights are slow, and smooth within a pixel.
+  /// `nearby`: of another sample of this pixel, and then of this one: highlights are slow, and
+  /// smooth within a pixel.
   Colour colour(const RayHit& hit, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                float pixel, float dither, Highlight& nearby) const;
+                float pixel, Highlight& nearby) const;
   Colour sky(const Eigen::Vector3f& direction) const;
   /// The smooth normal at a hit, unit, on the side of the viewer.
   Eigen::Vector3f normal(const RayHit& hit, const Eigen::Vector3f& direction) const;

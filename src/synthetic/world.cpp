@@ -123,7 +123,7 @@ struct World::Impl {
         const Vector3f direction = view.R_wc * ray.normalized();
         Highlight highlight;
         const Colour colour = shading.colour(caster.cast(view.origin, direction), view.origin,
-                                             direction, 1.2f / kColumns, 0, highlight);
+                                             direction, 1.2f / kColumns, highlight);
         sum += std::min(2.0, double(colour.mean()));
       }
     }
@@ -159,7 +159,6 @@ struct World::Impl {
     sums.fill(Colour::Zero());
     for (int s = 0; s < samples; ++s) {
       const Vector2f offset = offset_in_pixel(s, samples);
-      const float dither = (float(s) + 0.5f) / float(samples);
       for (int i = 0; i < RayCaster::kPacket; ++i) {
         const auto k = std::size_t(i);
         const int x = corner.x + i % 4, y = corner.y + i / 4;
@@ -173,8 +172,7 @@ struct World::Impl {
       for (std::size_t k = 0; k < RayCaster::kPacket; ++k) {
         if (!packet.active[k]) continue;
         const auto colour = [&](const RayHit& hit, float covered) {
-          return shading.colour(hit, packet.origin[k], packet.direction[k], covered, dither,
-                                highlights[k]);
+          return shading.colour(hit, packet.origin[k], packet.direction[k], covered, highlights[k]);
         };
         // Two samples in one triangle are shaded as one between them.
         const bool first = s % 2 == 0 && s + 1 < samples;

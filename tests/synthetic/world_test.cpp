@@ -59,6 +59,41 @@ TEST(World, FullyLitAndAtFullSizeTwoThreadsGiveTheBytesOfOne) {
   EXPECT_TRUE(same_bytes(rendered(1), rendered(2)));
 }
 
+// Pixels by which `picture` shows things elsewhere than `reference`, in the mean.
+Vector2d shift(const cv::Mat& picture, const cv::Mat& reference) {
+  Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
+  Vector2d g = Vector2d::Zero();
+  for (int y = 1; y + 1 < reference.rows; ++y) {
+    for (int x = 1; x + 1 < reference.cols; ++x) {
+      const auto grey = [](const cv::Mat& of, int column, int row) {
+        return double(of.at<cv::Vec3f>(row, column)[1]);
+      };
+      const Vector2d slope(0.5 * (grey(reference, x + 1, y) - grey(reference, x - 1, y)),
+                           0.5 * (grey(reference, x, y + 1) - grey(reference, x, y - 1)));
+      H += slope * slope.transpose();
+      g += slope * (grey(reference, x, y) - grey(picture, x, y));
+    }
+  }
+  return H.inverse() * g;
+}
+
+TEST(World, FewSamplesShowThingsWhereManyDo) {
+  const Camera camera = default_camera(SceneKind::kDesk, 320, 240, false);
+  Vector2d mean = Vector2d::Zero();
+  constexpr int kViews = 4;
+  for (int view = 0; view < kViews; ++view) {
+    const auto seen = [&](int samples) {
+      RenderOptions options;
+      options.exposure = 0;
+      options.samples = samples;
+      return desk().render_light(camera, 0.5 + 1.3 * view, options);
+    };
+    mean += shift(seen(4), seen(100)) / kViews;
+  }
+  // Edges alone, of which four samples see little, give 0.01 to 0.02 in single views.
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.03) << mean.transpose();
+}
+
 TEST(World, DepthReprojectsBetweenFrames) {
   const Camera camera = small_camera();
   const SE3 T_wa = desk().scene().path(3), T_wb = desk().scene().path(3.4);
