@@ -10,6 +10,7 @@
 #include "cairn/map/map.h"
 #include "cairn/optimization/factor_options.h"
 #include "cairn/optimization/factors/predicted_depth_factor.h"
+#include "cairn/optimization/factors/two_rows.h"
 
 namespace cairn {
 
@@ -47,7 +48,7 @@ class DepthBlocks {
   FactorOptions options_;
   bool full_ = false;
   double log_units_ = 0;  // of the map a metre
-  std::deque<PredictedDepthFactor> factors_;
+  std::deque<TwoRows<PredictedDepthFactor>> factors_;
 };
 
 }  // namespace cairn

@@ -12,6 +12,7 @@
 #include "cairn/optimization/factors/perpendicular_planes_factor.h"
 #include "cairn/optimization/factors/plane_observation_factor.h"
 #include "cairn/optimization/factors/point_on_plane_factor.h"
+#include "cairn/optimization/factors/two_rows.h"
 
 namespace cairn {
 namespace {
@@ -91,7 +92,7 @@ void PlaneBlocks::add_points(Entry& entry) {
   std::vector<PointId> outside;
   const auto add_point = [&](PointId id, double* position) {
     const double sigma = (map_.points()[id].assumed ? usual : flat) * map_.viewing_distance(id);
-    add(std::make_unique<PointOnPlaneFactor>(sigma), losses_[1].get(),
+    add(std::make_unique<TwoRows<PointOnPlaneFactor>>(sigma), losses_[1].get(),
         {reference, entry.values.data(), position});
   };
   for (const PointId id : landmark.points) {
