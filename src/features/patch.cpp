@@ -6,8 +6,8 @@
 namespace cairn {
 namespace {
 
-constexpr int kIterations = 8;
-constexpr float kSettled = 0.03F;            // pixels of the patch
+constexpr int kIterations = 12;
+constexpr float kSettled = 0.01F;            // pixels of the patch
 constexpr float kLeastLikeness = 0.8F;       // correlation
 constexpr float kLeastContrast = 0.1F;       // of the patch's own
 constexpr float kLeastDeterminant = 1;       // of the normal equations, grey levels to the sixth

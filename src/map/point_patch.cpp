@@ -7,10 +7,10 @@
 namespace cairn {
 namespace {
 
-constexpr float kReach = 2.5F;        // pixels of an octave that a corner may be off
-constexpr double kLeastSize = 0.3;    // pixels of the picture: patches that get smaller are blots
-constexpr double kLeastCosine = 0.2;  // of the angle at which a facet is seen
-constexpr double kMostStretch = 2.5;  // of a facet that is seen from aside
+constexpr float kReach = 2.5F;         // pixels of an octave that a corner may be off
+constexpr double kLeastSize = 0.3;     // pixels of the picture: patches that get smaller are blots
+constexpr double kLeastCosine = 0.05;  // of the angle at which a facet is seen
+constexpr double kMostStretch = 6;     // of a facet that is seen from aside
 
 // Pixels of the picture a pixel of the ideal pinhole camera, which is at `at` in the picture.
 Eigen::Matrix2d bend(const Undistorter& lens, const Eigen::Vector2d& pixel,
