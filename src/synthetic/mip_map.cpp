@@ -15,7 +15,7 @@ float log2_estimate(float x) {
 }
 
 std::uint8_t root_of(float linear) {
-  return std::uint8_t(255 * std::sqrt(std::clamp(linear, 0.f, 1.f)) + 0.5f);
+  return std::uint8_t(std::lround(255 * std::sqrt(std::clamp(linear, 0.f, 1.f))));
 }
 
 }  // namespace
@@ -67,9 +67,10 @@ Colour MipMap::sample(const Eigen::Vector2f& uv, float footprint) const {
   const float level = std::clamp(exponent, 0.f, last), finer = std::floor(level);
   const float coarser_share = level - finer;
   const Eigen::Vector2f turns(uv.x() * repeats_x_, uv.y() * repeats_y_);
-  const Colour fine = levels_[std::size_t(finer)].at(turns);
-  if (coarser_share == 0) return fine;
-  return fine + coarser_share * (levels_[std::size_t(finer) + 1].at(turns) - fine);
+  const Level& fine = levels_[std::size_t(finer)];
+  if (coarser_share == 0) return fine.at(turns);
+  const Level& coarse = levels_[std::size_t(finer) + 1];
+  return (1 - coarser_share) * fine.at(turns) + coarser_share * coarse.at(turns);
 }
 
 Colour MipMap::Level::at(const Eigen::Vector2f& turns) const {
