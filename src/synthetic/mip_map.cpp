@@ -62,15 +62,13 @@ MipMap::MipMap(const Texture& texture)
 }
 
 Colour MipMap::sample(const Eigen::Vector2f& uv, float footprint) const {
-  const float exponent = log2_estimate(std::max(footprint * texels_per_metre_, 1e-6f));
-  const float last = float(levels_.size() - 1);
-  const float level = std::clamp(exponent, 0.f, last), finer = std::floor(level);
-  const float coarser_share = level - finer;
+  const float halvings = std::clamp(log2_estimate(std::max(footprint * texels_per_metre_, 1e-6f)),
+                                    0.f, float(levels_.size() - 1));
+  const auto finer = std::size_t(halvings);
+  const float share = halvings - float(finer);  // of the coarser one
   const Eigen::Vector2f turns(uv.x() * repeats_x_, uv.y() * repeats_y_);
-  const Level& fine = levels_[std::size_t(finer)];
-  if (coarser_share == 0) return fine.at(turns);
-  const Level& coarse = levels_[std::size_t(finer) + 1];
-  return (1 - coarser_share) * fine.at(turns) + coarser_share * coarse.at(turns);
+  if (share == 0) return levels_[finer].at(turns);
+  return (1 - share) * levels_[finer].at(turns) + share * levels_[finer + 1].at(turns);
 }
 
 Colour MipMap::Level::at(const Eigen::Vector2f& turns) const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cairn/optimization/factors/two_rows.h"
 #include "factor_check.h"
 #include "factor_graph.h"
 #include "geometry/planes.h"
@@ -42,6 +43,23 @@ TEST(PredictedDepthFactor, DerivativesAgreeWithCentralDifferences) {
     const Vector3d X_w = T_wc * in_front(random);
     expect_true_derivatives(PredictedDepthFactor(random.uniform(0.3, 8), random.uniform(0.1, 1)),
                             {Block::of(T_wc), Block::of(X_w), Block::of(random.uniform(-2, 2))});
+  }
+}
+
+TEST(PredictedDepthFactor, InTwoRowsItSaysTheSameAndNothingInTheSecond) {
+  Random random(4);
+  for (int trial = 0; trial < 30; ++trial) {
+    const SE3 T_wc = random.motion(3, 4);
+    const std::vector<Block> blocks = {Block::of(T_wc),
+                                       Block::of(Vector3d(T_wc * in_front(random))),
+                                       Block::of(random.uniform(-2, 2))};
+    const double metres = random.uniform(0.3, 8);
+    const TwoRows<PredictedDepthFactor> factor(metres, 0.2);
+    const Eigen::VectorXd e = residual(factor, blocks);
+    ASSERT_EQ(e.size(), 2);
+    EXPECT_EQ(e[0], residual(PredictedDepthFactor(metres, 0.2), blocks)[0]);
+    EXPECT_EQ(e[1], 0);
+    expect_true_derivatives(factor, blocks);
   }
 }
 
