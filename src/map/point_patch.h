@@ -25,6 +25,8 @@ struct PointPatch {
   Eigen::Matrix<double, 3, 2> steps;
   Eigen::Vector2d foreshortening = Eigen::Vector2d::Zero();
 
+  /// Of the facet, unit length, world; its sign is of no matter.
+  Eigen::Vector3d normal() const { return steps.col(0).cross(steps.col(1)).normalized(); }
   /// The same picture on a facet that lies otherwise; as it was where that was seen from the edge.
   PointPatch turned(const Eigen::Vector3d& normal) const;
 };

@@ -8,6 +8,9 @@ namespace {
 // Keyframes for which a point is new: its neighbours, and they say how its surface lies, still
 // move.
 constexpr std::uint32_t kNew = 3;
+// Later they know it ever better. Each turn of a facet moves where its point is found, so small
+// ones do not count.
+constexpr double kTurned = 0.985;  // cosine of 10 degrees
 
 void cut_new_patches(Map& map, const Keyframe& keyframe, KeyframeId id) {
   for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
@@ -25,15 +28,26 @@ void cut_new_patches(Map& map, const Keyframe& keyframe, KeyframeId id) {
   }
 }
 
+// Where a point is found depends on how its facet lies.
+void align_anew(const Map& map, MapPoint& point) {
+  for (Observation& o : point.observations) {
+    if (map.keyframes()[o.keyframe].picture) o.patch = PatchState::kUntried;
+  }
+}
+
 // A plane says better than the neighbours how a point's surface lies.
 void turn_patches(Map& map, const Keyframe& keyframe) {
   const SurfaceNormals normals(map, keyframe);
   for (std::uint32_t i = 0; i < keyframe.points.size(); ++i) {
     if (!keyframe.points[i].valid()) continue;
     MapPoint& point = map.points()[keyframe.points[i]];
-    if (!point.patch || (!point.plane.valid() && keyframe.sequence > point.born + kNew)) continue;
-    point.patch = std::make_shared<PointPatch>(point.patch->turned(
-        point.plane.valid() ? map.plane_in_world(point.plane).normal() : normals.at(i)));
+    if (!point.patch) continue;
+    const Eigen::Vector3d normal =
+        point.plane.valid() ? map.plane_in_world(point.plane).normal() : normals.at(i);
+    const bool turned = std::abs(point.patch->normal().dot(normal)) < kTurned;
+    if (!turned && !point.plane.valid() && keyframe.sequence > point.born + kNew) continue;
+    point.patch = std::make_shared<PointPatch>(point.patch->turned(normal));
+    if (turned) align_anew(map, point);
   }
 }
 

@@ -20,6 +20,7 @@ class SurfaceNormals {
  private:
   struct Sample {
     double x, y, inverse_depth;  ///< x, y at depth 1
+    double noise;                ///< of the depth, relative
   };
   const Keyframe& keyframe_;
   std::vector<Sample> samples_;

@@ -15,11 +15,13 @@ double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::min(1.0, std::abs(a.dot(b)))) * 180 / M_PI;
 }
 
-// A keyframe that sees points of which `depth_at(ray)` says the depth, with an error of 1 %.
+// A keyframe that sees points of which `depth_at(ray)` says the depth. Every `surer`th was seen
+// from far aside too, and errs by 1 %; the others from `aside` with an error of `error`.
 class Sight {
  public:
   template <class DepthAt>
-  Sight(std::uint64_t seed, int count, const SE3& T_wc, const DepthAt& depth_at)
+  Sight(std::uint64_t seed, int count, const SE3& T_wc, const DepthAt& depth_at, int surer = 1,
+        double aside = 0, double error = 0)
       : map(testing::point_view()) {
     Random random(seed);
     auto frame = std::make_shared<Frame>();
@@ -27,14 +29,21 @@ class Sight {
     for (int i = 0; i < count; ++i) {
       const double x = random.uniform(20, 620), y = random.uniform(20, 460);
       const Eigen::Vector3d ray = kCamera.unproject({x, y});
-      positions.push_back(T_wc * (depth_at(ray) * (1 + 0.01 * random.gaussian()) * ray));
+      const double off = (i % surer == 0 ? 0.01 : error) * random.gaussian();
+      positions.push_back(T_wc * (depth_at(ray) * (1 + off) * ray));
       frame->features.keypoints.push_back({static_cast<float>(x), static_cast<float>(y)});
       frame->features.descriptors.emplace_back();
     }
     frame->grid.build(frame->features.keypoints);
-    id = map.add_keyframe(frame, T_wc);
-    for (int i = 0; i < count; ++i) {
-      map.add_observation(map.add_point(positions[i]), id, static_cast<std::uint32_t>(i));
+    const auto keyframe_aside = [&](double distance) {
+      return map.add_keyframe(frame, T_wc * SE3::exp({distance, 0, 0, 0, 0, 0}));
+    };
+    id = keyframe_aside(0);
+    const KeyframeId far = keyframe_aside(0.2), near = keyframe_aside(aside);
+    for (std::uint32_t i = 0; i < positions.size(); ++i) {
+      const PointId point = map.add_point(positions[i]);
+      map.add_observation(point, id, i);
+      map.add_observation(point, i % surer == 0 ? far : near, i);
     }
   }
 
@@ -77,6 +86,21 @@ TEST(SurfaceNormals, AreThoseOfAWallThatIsSeenAlong) {
   std::sort(off.begin(), off.end());
   EXPECT_LT(off[off.size() / 2], 5);
   EXPECT_LT(off[off.size() * 9 / 10], 15);
+}
+
+TEST(SurfaceNormals, PointsWhoseDepthIsHardlyKnownSayLittle) {
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.2, 0.6, -0.7).normalized();
+  const Sight sight(
+      9, 800, SE3(), [&](const Eigen::Vector3d& ray) { return -2 / normal.dot(ray); }, 4, 0.002,
+      0.3);
+  const Keyframe& keyframe = sight.map.keyframes()[sight.id];
+  const SurfaceNormals normals(sight.map, keyframe);
+  std::vector<double> off;
+  for (std::uint32_t i = 0; i < keyframe.points.size(); i += 4) {
+    off.push_back(degrees_between(normals.at(i), normal));
+  }
+  std::sort(off.begin(), off.end());
+  EXPECT_LT(off[off.size() * 9 / 10], 12);
 }
 
 TEST(SurfaceNormals, DoNotLeanTowardsWhatStandsBehind) {
