@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kMinMatches = 15;
 constexpr int kMinResectionInliers = 10;
-// Of the points that a pose should show. Where patterns repeat (wallpaper), a wrong pose finds many
-// points, but only a few of all.
-constexpr double kLeastSeen = 0.07;
+// Of the share of the points in sight that a keyframe sees itself. Where patterns repeat
+// (wallpaper), a wrong pose finds many points, but only a few of all.
+constexpr double kLeastShare = 1.0 / 3;
 constexpr std::size_t kViews = 3;  // keyframes whose surroundings are searched around a pose
 // Pixels at octave 0. A pose by objects puts what is near them to within their boxes' errors.
 constexpr double kObjectRadius = 20;
@@ -78,9 +78,9 @@ class Attempt {
   int confirm(const TrackingOptions& options) {
     if (search_map(10) < kMinMatches) return 0;
     const int inliers = search_map(4);
-    const int expected = count_visible();
-    spdlog::debug("relocalisation: {} points agree of {} that should be seen", inliers, expected);
-    return inliers >= options.min_inliers && inliers >= kLeastSeen * expected ? inliers : 0;
+    const double share = inliers / count_visible(T_wc_) / usual_share();
+    spdlog::debug("relocalisation: {} points agree, {:.2f} of what is usual here", inliers, share);
+    return inliers >= options.min_inliers && share >= kLeastShare ? inliers : 0;
   }
 
   Relocalization result(int inliers) const {
@@ -92,8 +92,8 @@ class Attempt {
   }
 
  private:
-  Visibility see(const SE3& T_cw, const MapView::Point& p) const {
-    return predict_visibility(view_, T_cw, T_wc_.translation(), p.position, p.normal,
+  Visibility see(const SE3& T_wc, const SE3& T_cw, const MapView::Point& p) const {
+    return predict_visibility(view_, T_cw, T_wc.translation(), p.position, p.normal,
                               p.base_distance);
   }
 
@@ -107,7 +107,7 @@ class Attempt {
     for (std::uint32_t i = 0; i < map_->points.size(); ++i) {
       const MapView::Point& p = map_->points[i];
       if (taken[i]) continue;
-      const Visibility v = see(T_cw, p);
+      const Visibility v = see(T_wc_, T_cw, p);
       if (!v.visible) continue;
       expected.push_back({i, v.pixel.cast<float>(),
                           static_cast<float>(radius * view_.scale(v.octave)),
@@ -117,12 +117,21 @@ class Attempt {
     search_by_projection(frame_, expected, {80, 0.85}, points_);
   }
 
-  // Points of the map that the pose should show.
-  int count_visible() const {
-    const SE3 T_cw = T_wc_.inverse();
-    return static_cast<int>(
+  // Points of the map that a pose should show.
+  double count_visible(const SE3& T_wc) const {
+    const SE3 T_cw = T_wc.inverse();
+    const auto count =
         std::count_if(map_->points.begin(), map_->points.end(),
-                      [&](const MapView::Point& p) { return see(T_cw, p).visible; }));
+                      [&](const MapView::Point& p) { return see(T_wc, T_cw, p).visible; });
+    return std::max(1.0, static_cast<double>(count));
+  }
+
+  // Of the points that the candidate's pose should show, those that it does show.
+  double usual_share() const {
+    const auto none =
+        std::count(map_->reference_points.begin(), map_->reference_points.end(), kNoPoint);
+    const auto seen = static_cast<double>(map_->reference_points.size() - none);
+    return std::max(1.0, seen) / count_visible(map_->pose_of(map_->reference).value());
   }
 
   void gather() {
@@ -186,13 +195,15 @@ std::vector<KeyframeId> keyframes_around(const Map& map, const SE3& T_wc) {
 std::optional<Relocalization> relocalize(const Frame& frame, const Map& map,
                                          std::span<const KeyframeId> candidates,
                                          const TrackingOptions& options, std::uint64_t seed) {
+  std::optional<Relocalization> best;
   for (const KeyframeId id : candidates) {
     if (!map.keyframes().contains(id)) continue;
     Attempt attempt(frame, map, id, options);
     if (!attempt.match_by_appearance() || !attempt.resect(seed)) continue;
-    if (const int inliers = attempt.confirm(options)) return attempt.result(inliers);
+    const int inliers = attempt.confirm(options);
+    if (inliers > (best ? best->inliers : 0)) best = attempt.result(inliers);
   }
-  return std::nullopt;
+  return best;
 }
 
 std::optional<Relocalization> relocalize_with_objects(const Frame& frame, const Map& map,

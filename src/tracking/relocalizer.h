@@ -18,9 +18,9 @@ struct Relocalization {
   int objects = 0;              ///< that agree, where it was found by them
 };
 
-/// Finds a frame in the map: descriptors against each candidate keyframe (by appearance, the
-/// likeliest first), resection by P3P within RANSAC, then the points around that keyframe by
-/// projection. Pure: it changes nothing. `seed` steers the random samples.
+/// Finds a frame in the map: descriptors against each candidate keyframe, resection by P3P within
+/// RANSAC, then the points around that keyframe by projection; of the poses that hold the one with
+/// the most points. Pure: it changes nothing. `seed` steers the random samples.
 std::optional<Relocalization> relocalize(const Frame& frame, const Map& map,
                                          std::span<const KeyframeId> candidates,
                                          const TrackingOptions& options, std::uint64_t seed);

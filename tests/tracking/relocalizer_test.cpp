@@ -60,7 +60,7 @@ TEST_F(RelocalizerTest, RefusesAPoseThatShowsOnlyAFewOfThePointsInSight) {
   options.min_inliers = 20;
   const auto frame = patch.show(along(1.0), 100);
   EXPECT_FALSE(relocalize(*frame, map, candidates, options, 1).has_value());
-  PointWorld more(51, {.count = 400, .noise = 0.3, .bit_flips = 0});
+  PointWorld more(51, {.count = 750, .noise = 0.3, .bit_flips = 0});
   EXPECT_TRUE(relocalize(*more.show(along(1.0), 100), map, candidates, options, 1).has_value());
 }
 
@@ -76,6 +76,19 @@ TEST_F(RelocalizerTest, PassesOverCandidatesThatAreGone) {
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->view->reference, candidates[3]);
   EXPECT_FALSE(relocalize(*frame, map, {}, {}, 1).has_value());
+}
+
+TEST_F(RelocalizerTest, OfAllCandidatesTheOneThatExplainsMostIsTheAnswer) {
+  const auto frame = world.show(along(1.2), 100);
+  const auto found = relocalize(*frame, map, candidates, {}, 1);
+  const std::vector<KeyframeId> backwards(candidates.rbegin(), candidates.rend());
+  const auto again = relocalize(*frame, map, backwards, {}, 1);
+  ASSERT_TRUE(found && again);
+  for (const KeyframeId id : candidates) {
+    const auto alone = relocalize(*frame, map, {{id}}, {}, 1);
+    EXPECT_LE(alone ? alone->inliers : 0, found->inliers);
+  }
+  EXPECT_EQ(again->inliers, found->inliers);
 }
 
 TEST_F(RelocalizerTest, SameSeedSameAnswer) {
