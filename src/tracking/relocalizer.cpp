@@ -176,6 +176,7 @@ std::vector<KeyframeId> keyframes_around(const Map& map, const SE3& T_wc) {
     for (const Observation& o : p.observations) ++shared[o.keyframe];
   });
   std::vector<std::pair<double, KeyframeId>> ranked;  // the less the better
+  ranked.reserve(shared.size());
   for (const auto& [id, count] : shared) ranked.emplace_back(-count, id);
   if (ranked.empty()) {
     map.keyframes().for_each([&](KeyframeId id, const Keyframe& k) {
