@@ -8,7 +8,8 @@ namespace cairn {
 
 /// How the surfaces lie that a keyframe sees, as its points show it: on a plane the inverse of the
 /// depth is affine in the pixel, so an affine function through a point and its neighbours in the
-/// picture gives the normal there. Neighbours on other surfaces are let go as outliers.
+/// picture gives the normal there. Neighbours say as much as the parallax of their views makes them
+/// sure of their depth; those on other surfaces are let go as outliers.
 class SurfaceNormals {
  public:
   SurfaceNormals(const Map& map, const Keyframe& keyframe);
