@@ -8,6 +8,7 @@
 
 #include "cairn/features/retrieval.h"
 #include "cairn/map/stopwatch.h"
+#include "cairn/mapping/end_rays.h"
 #include "cairn/mapping/keyframe_motion.h"
 #include "cairn/mapping/missed_points.h"
 #include "cairn/mapping/object_support.h"
@@ -107,11 +108,8 @@ KeyframeId Mapper::insert(const KeyframeCandidate& candidate) {
 // A point whose depth was that of its plane is measured once two views see it apart.
 void Mapper::measure(PointId id) {
   MapPoint& point = map_.points()[id];
-  const auto ray = [&](const Observation& o) -> Eigen::Vector3d {
-    return (point.position - map_.keyframes()[o.keyframe].T_wc.translation()).normalized();
-  };
-  const double cosine = ray(point.observations.front()).dot(ray(point.observations.back()));
-  point.assumed = cosine > std::cos(options_.min_parallax_deg * std::numbers::pi / 180);
+  const auto [first, last] = end_rays(map_, point);
+  point.assumed = first.dot(last) > std::cos(options_.min_parallax_deg * std::numbers::pi / 180);
 }
 
 KeyframeId Mapper::keyframe_of(const Frame& frame) const {

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "cairn/mapping/end_rays.h"
+
 namespace cairn {
 namespace {
 
@@ -21,11 +23,8 @@ constexpr int kHalvings = 3;
 
 // Of a point's depth, relative: the less the farther apart its first and last views are.
 double depth_noise(const Map& map, const MapPoint& point) {
-  const auto ray = [&](const Observation& o) -> Eigen::Vector3d {
-    return (point.position - map.keyframes()[o.keyframe].T_wc.translation()).normalized();
-  };
-  const double parallax =
-      ray(point.observations.front()).cross(ray(point.observations.back())).norm();
+  const auto [first, last] = end_rays(map, point);
+  const double parallax = first.cross(last).norm();
   const double error = kPixels / map.view().pinhole().fx;
   return error < kMostNoise * parallax ? error / parallax : kMostNoise;
 }
