@@ -12,29 +12,21 @@ namespace {
 constexpr ObjectClass thing(const char* name, const char* family, double length, double height,
                             double width, double sigma) {
   constexpr double k = 0.5 * 4 / 3.14159265358979323846;
-  return {name, family, {k * length, k * height, k * width}, sigma, 1};
+  return {name, family, {k * length, k * height, k * width}, sigma};
 }
 
-// From the road a camera sees cars mostly from their ends, and the side that it does not see is
-// fitted too short: on KITTI 00 and in synthetic streets by this in all three axes together.
-constexpr double kVehicleFits = 0.8;
-
-constexpr ObjectClass vehicle(const char* name, double length, double height, double width,
-                              double sigma) {
-  ObjectClass c = thing(name, "vehicle", length, height, width, sigma);
-  c.fitted = kVehicleFits;
-  return c;
-}
+// It is rounder, too: by this in the logarithms of its semi-axes.
+constexpr double kRounder = 0.9;
 
 constexpr ObjectClass kClasses[] = {
     thing("person", "person", 0.5, 1.7, 0.35, 0.2),
     thing("bicycle", "cycle", 1.7, 1.05, 0.5, 0.2),
-    vehicle("car", 4.3, 1.5, 1.8, 0.15),
+    thing("car", "vehicle", 4.3, 1.5, 1.8, 0.15),
     thing("motorcycle", "cycle", 2.1, 1.2, 0.75, 0.2),
     thing("airplane", "airplane", 40, 12, 35, 0.7),
-    vehicle("bus", 11, 3.1, 2.5, 0.25),
-    vehicle("train", 25, 4, 3, 0.7),
-    vehicle("truck", 6.5, 2.6, 2.2, 0.4),
+    thing("bus", "vehicle", 11, 3.1, 2.5, 0.25),
+    thing("train", "vehicle", 25, 4, 3, 0.7),
+    thing("truck", "vehicle", 6.5, 2.6, 2.2, 0.4),
     thing("boat", "boat", 6, 2, 2.2, 0.7),
     thing("traffic light", "traffic light", 0.35, 0.95, 0.35, 0.25),
     thing("fire hydrant", "fire hydrant", 0.35, 0.75, 0.35, 0.2),
@@ -129,7 +121,7 @@ bool may_be_one_class(const std::string& a, const std::string& b) {
 
 Eigen::Vector3d class_shape(const ObjectClass& c) {
   const Eigen::Vector3d logs = Eigen::Vector3d(c.semi_axes).array().log();
-  return logs.array() - logs.mean();
+  return kRounder * (logs.array() - logs.mean());
 }
 
 double usual_size(const std::string& class_name) {

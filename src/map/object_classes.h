@@ -12,7 +12,6 @@ struct ObjectClass {
   const char* family;   ///< classes that detectors confuse share one
   double semi_axes[3];  ///< of the ellipsoid that shows the boxes of a thing of median size, metres
   double sigma;         ///< of the logarithm of the size between things of the class
-  double fitted;        ///< size that fits to boxes have in the median, over the true one
 };
 
 /// All 80 classes of COCO. Sources: docs/objects.md, "Sizes".
@@ -21,7 +20,8 @@ std::span<const ObjectClass> object_classes();
 const ObjectClass* find_object_class(const std::string& name);
 /// Are both the same, or of one family?
 bool may_be_one_class(const std::string& a, const std::string& b);
-/// Logarithms of the semi-axes around their mean: length, height, width.
+/// Logarithms of the semi-axes of an ellipsoid with the outlines of such a thing, around their
+/// mean: length, height, width.
 Eigen::Vector3d class_shape(const ObjectClass& c);
 /// Geometric mean of the semi-axes, metres; 0 where nothing is known of the class.
 double usual_size(const std::string& class_name);

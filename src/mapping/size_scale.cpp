@@ -9,6 +9,9 @@
 namespace cairn {
 namespace {
 
+// Of the class's ellipsoid, that fits have in the median: most boxes show a thing from the level,
+// or from its ends. (Things of synthetic desks and streets 0.95, cars of KITTI 00 0.85.)
+constexpr double kFitted = 0.92;
 constexpr double kFitSigma = 0.15;  // of the logarithm of a fitted size: boxes are rough
 constexpr double kShared = 0.1;     // of the logarithm, for all things of a map together
 constexpr double kWidth = 2;        // σ: Huber
@@ -29,10 +32,11 @@ ScaleEstimate scale_from_sizes(const Map& map) {
     const double size = std::cbrt(landmark.ellipsoid.semi_axes.prod());
     if (!(size > 0) || !std::isfinite(size)) return;
     said.push_back(
-        {std::log(c->fitted * usual_size(c->name) / size), std::hypot(c->sigma, kFitSigma)});
+        {std::log(kFitted * usual_size(c->name) / size), std::hypot(c->sigma, kFitSigma)});
   });
   if (said.empty()) return {};
   std::vector<WeightedValue> values;
+  values.reserve(said.size());
   for (const Said& s : said) values.push_back({s.log_scale, 1 / s.sigma});
   double mean = median(values), information = 0;
   for (int round = 0; round < kRounds; ++round) {

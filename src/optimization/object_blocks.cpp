@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMinObservations = 2;  // of an object, that it takes part
 constexpr double kSigmaIou = 0.1;            // paper form: where a box's edge has its own σ
 
-constexpr double kSigmaOfClass = 0.5;  // of the logarithm of a size, added to the class's
+constexpr double kSigmaOfClass = 0.3;  // of the logarithm of a size, added to the class's
 constexpr double kSigmaShape = 0.3;    // of log semi-axes around those of the class
 constexpr double kSigmaTurn = 0.1;     // radians: from one adjustment to the next
 

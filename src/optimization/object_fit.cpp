@@ -131,7 +131,10 @@ class Problem {
       normal->g.segment<3>(3) += by_turn.transpose() * turn;
     }
     add(prior_.sigma_shape, shape - prior_.shape, identity - Matrix3d::Constant(1.0 / 3));
-    if (prior_.usual > 0) add(prior_.sigma_size, logs.array() - std::log(prior_.usual), identity);
+    if (prior_.usual > 0) {
+      const Vector3d usual = prior_.shape.array() + std::log(prior_.usual);
+      add(prior_.sigma_size, logs - usual, identity);
+    }
     return sum;
   }
 

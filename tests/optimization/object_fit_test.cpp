@@ -154,6 +154,19 @@ TEST(ObjectFit, IsBoundedByItsPriorWithoutParallax) {
   EXPECT_FALSE(fit_object(kStart, {views.data(), 1}, kCamera, {.usual = 0}).usable);
 }
 
+TEST(ObjectFit, HasTheSizeAndShapeOfItsClassWhereItsBoxesSayNothing) {
+  const Vector3d axes(0.3, 0.1, 0.15);
+  ObjectPrior prior;
+  prior.usual = std::cbrt(axes.prod());
+  prior.shape = (axes / prior.usual).array().log();
+  prior.sigma_size = 0.2;
+  auto views = views_of(0);
+  for (BoxView& view : views) view.sigma = 1e5;
+  const ObjectFit fit = fit_object(kStart, views, kCamera, prior);
+  ASSERT_TRUE(fit.usable);
+  EXPECT_LT((fit.ellipsoid.semi_axes - axes).norm(), 1e-3) << fit.ellipsoid.semi_axes.transpose();
+}
+
 TEST(ObjectFit, SaysHowUnsureItIs) {
   const ObjectPrior prior{.usual = 0.15};
   const ObjectFit narrow = fit_object(kStart, views_of(10, 1), kCamera, prior);
