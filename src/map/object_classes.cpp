@@ -15,7 +15,8 @@ constexpr ObjectClass thing(const char* name, const char* family, double length,
   return {name, family, {k * length, k * height, k * width}, sigma};
 }
 
-// It is rounder, too: by this in the logarithms of its semi-axes.
+// That ellipsoid is rounder than the cuboid, too: by this in the logarithms of its semi-axes,
+// around their mean (class_shape).
 constexpr double kRounder = 0.9;
 
 constexpr ObjectClass kClasses[] = {

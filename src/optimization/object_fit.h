@@ -14,8 +14,9 @@
 namespace cairn {
 
 /// What is known of a thing before it is seen: its log semi-axes scatter with `sigma_size` around
-/// the logarithm of `usual`, and around their own mean with `sigma_shape` around `shape`; its axes
-/// are turned as `turn`, in the frame of the ellipsoid's T, with `sigma_turn` radians around each.
+/// those of a thing of its `shape` whose geometric mean is `usual`, and around their own mean with
+/// `sigma_shape` around `shape`; its axes are turned as `turn`, in the frame of the ellipsoid's T,
+/// with `sigma_turn` radians around each.
 struct ObjectPrior {
   double usual = 0;  ///< typical semi-axis, units of the map; 0: nothing is known of its size
   double sigma_size = 1, sigma_shape = 0.4;
