@@ -8,7 +8,7 @@
 #include "cairn/geometry/median.h"
 #include "cairn/map/object_classes.h"
 #include "cairn/mapping/points_in_box.h"
-#include "cairn/optimization/object_blocks.h"
+#include "cairn/optimization/object_prior.h"
 
 namespace cairn {
 namespace {

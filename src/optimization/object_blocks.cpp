@@ -7,37 +7,16 @@
 #include "cairn/optimization/factors/object_size_factor.h"
 #include "cairn/optimization/factors/object_turn_factor.h"
 #include "cairn/optimization/factors/support_factor.h"
+#include "cairn/optimization/object_prior.h"
 
 namespace cairn {
 namespace {
 
 constexpr std::size_t kMinObservations = 2;  // of an object, that it takes part
 constexpr double kSigmaIou = 0.1;            // paper form: where a box's edge has its own σ
-
-constexpr double kSigmaOfClass = 0.3;  // of the logarithm of a size, added to the class's
-constexpr double kSigmaShape = 0.3;    // of log semi-axes around those of the class
-constexpr double kSigmaTurn = 0.1;     // radians: from one adjustment to the next
+constexpr double kSigmaTurn = 0.1;           // radians: from one adjustment to the next
 
 }  // namespace
-
-ObjectPrior prior_of(const std::string& class_name, double units_a_metre) {
-  ObjectPrior prior;
-  prior.usual = usual_size(class_name) * units_a_metre;
-  const ObjectClass* known = find_object_class(class_name);
-  if (known != nullptr) prior.sigma_size = std::hypot(known->sigma, kSigmaOfClass);
-  return prior;
-}
-
-// Upside down is upright, too.
-void expect_upright(ObjectPrior& prior, const ObjectClass& of_class, const Eigen::Quaterniond& axes,
-                    const Upward& up) {
-  const Eigen::Vector3d height = axes * Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d side = height.dot(up.direction) < 0 ? -up.direction : up.direction;
-  prior.shape = class_shape(of_class);
-  prior.sigma_shape = kSigmaShape;
-  prior.turn = Eigen::Quaterniond::FromTwoVectors(height, side) * axes;
-  prior.sigma_turn = {up.sigma, HUGE_VAL, up.sigma};
-}
 
 void ObjectBlocks::add_to(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering,
                           PoseBlocks& poses, PlaneBlocks& planes) {

@@ -8,27 +8,15 @@
 #include <array>
 #include <deque>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "cairn/map/map.h"
-#include "cairn/map/object_classes.h"
 #include "cairn/optimization/factor_options.h"
-#include "cairn/optimization/object_fit.h"
 #include "cairn/optimization/object_manifold.h"
 #include "cairn/optimization/plane_blocks.h"
 #include "cairn/optimization/pose_blocks.h"
 
 namespace cairn {
-
-/// What is known of a thing's form by its class; lengths of a map with so many units a metre (0:
-/// not known). Wide: neither the class nor the metre may be right.
-ObjectPrior prior_of(const std::string& class_name, double units_a_metre);
-
-/// Adds that the thing has the shape of its class, with its second axis upright; turned as `axes`
-/// otherwise. `up` in the same frame.
-void expect_upright(ObjectPrior& prior, const ObjectClass& of_class, const Eigen::Quaterniond& axes,
-                    const Upward& up);
 
 /// The objects of the map as parameters of an adjustment, with all factors that they take part in.
 /// Keyframes that the adjustment does not move hold the objects all the same.

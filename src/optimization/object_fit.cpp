@@ -220,18 +220,6 @@ bool usable_input(const Ellipsoid& start, std::span<const BoxView> views) {
 
 }  // namespace
 
-Vector3d turn_residual(const ObjectPrior& prior, const Eigen::Quaterniond& q, Matrix3d* by_step) {
-  Eigen::Quaterniond turn = prior.turn.conjugate() * q;
-  if (turn.w() < 0) turn.coeffs() *= -1;
-  const Vector3d information = prior.sigma_turn.cwiseInverse();  // 0 where σ is infinite
-  if (by_step) {
-    *by_step = skew(turn.vec());
-    by_step->diagonal().array() += turn.w();
-    *by_step = (information.asDiagonal() * *by_step).eval();
-  }
-  return 2 * information.cwiseProduct(turn.vec());
-}
-
 std::string ObjectFit::to_string() const {
   char text[160];
   std::snprintf(text, sizeof text,

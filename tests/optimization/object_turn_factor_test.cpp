@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cairn/map/object_classes.h"
-#include "cairn/optimization/object_blocks.h"
+#include "cairn/optimization/object_prior.h"
 #include "factor_check.h"
 #include "factor_graph.h"
 #include "geometry/scene.h"

@@ -3,7 +3,7 @@
 #include <ceres/cost_function.h>
 
 #include "cairn/optimization/factors/factor_form.h"
-#include "cairn/optimization/object_fit.h"
+#include "cairn/optimization/object_prior.h"
 
 namespace cairn {
 

@@ -2,7 +2,7 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include "cairn/optimization/object_fit.h"
+#include "cairn/optimization/object_prior.h"
 
 namespace cairn {
 
