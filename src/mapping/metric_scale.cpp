@@ -15,6 +15,7 @@ constexpr double kPriorVariance =
 constexpr double kMaxContrast = 2.5;
 constexpr double kErrorsLast = 0.76;  // seconds: of a picture's scale, docs/perception_noise.md
 constexpr double kGate = 3;           // σ
+constexpr double kOfSensor = 0.01;    // relative: the metre of a depth camera
 
 // Robust σ around the median.
 double spread_of(std::vector<WeightedValue> values) {
@@ -115,10 +116,12 @@ ScaleEstimate MetricScale::estimate() const {
   double independent = 0;
   for (const WeightedValue& v : values) independent += v.weight;
   ScaleEstimate estimate;
-  const double of_scene = sigma();
-  estimate.how = of_scene > 0 ? "predicted depth" : "measured depth";
+  const double of_network = sigma();
+  const bool measured = !(of_network > 0);
+  estimate.how = measured ? "measured depth" : "predicted depth";
   estimate.value = 1 / picture_scale();
-  estimate.sigma = std::hypot(of_scene, spread_of(values) / std::sqrt(independent));
+  estimate.sigma =
+      std::hypot(measured ? kOfSensor : of_network, spread_of(values) / std::sqrt(independent));
   estimate.pictures = static_cast<int>(pictures_.size());
   return estimate;
 }

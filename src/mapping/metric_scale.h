@@ -50,8 +50,9 @@ class MetricScale {
   double spread() const;
   /// Of those that came with pictures the largest, but for the last quarter; 0 without any.
   double sigma() const;
-  /// Metres. Its σ: that of the detector in a scene, which no number of pictures makes smaller, and
-  /// the spread of the pictures over the root of the number of independent ones.
+  /// Metres. Its σ: that of the detector in a scene, or of the calibration of a depth camera, which
+  /// no number of pictures makes smaller, and the spread of the pictures over the root of the
+  /// number of independent ones.
   ScaleEstimate estimate() const;
   /// Networks shy away from what is near and what is far: the range of depths in the map over that
   /// in predictions, of logarithms, at least 1. Measured depth has 1.
