@@ -125,10 +125,8 @@ Eigen::Vector3d class_shape(const ObjectClass& c) {
   return kRounder * (logs.array() - logs.mean());
 }
 
-double usual_size(const std::string& class_name) {
-  const ObjectClass* c = find_object_class(class_name);
-  if (c == nullptr) return 0;
-  return std::cbrt(c->semi_axes[0] * c->semi_axes[1] * c->semi_axes[2]);
+double usual_size(const ObjectClass& c) {
+  return std::cbrt(c.semi_axes[0] * c.semi_axes[1] * c.semi_axes[2]);
 }
 
 }  // namespace cairn

@@ -23,7 +23,7 @@ bool may_be_one_class(const std::string& a, const std::string& b);
 /// Logarithms of the semi-axes of an ellipsoid with the outlines of such a thing, around their
 /// mean: length, height, width.
 Eigen::Vector3d class_shape(const ObjectClass& c);
-/// Geometric mean of the semi-axes, metres; 0 where nothing is known of the class.
-double usual_size(const std::string& class_name);
+/// Geometric mean of the semi-axes, metres.
+double usual_size(const ObjectClass& c);
 
 }  // namespace cairn

@@ -31,7 +31,7 @@ ScaleEstimate given_scale(const ScaleEstimate& found, double factor) {
 }
 
 ScaleEstimate joined(const ScaleEstimate& pictures, const ScaleEstimate& sizes) {
-  if (!sizes.known() || (pictures.known() && !(pictures.sigma > 0))) return pictures;
+  if (!sizes.known()) return pictures;
   if (!pictures.known()) return sizes;
   const double a = std::log(pictures.value), b = std::log(sizes.value);
   const double wa = 1 / (pictures.sigma * pictures.sigma), wb = 1 / (sizes.sigma * sizes.sigma);

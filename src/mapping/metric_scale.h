@@ -32,7 +32,7 @@ struct ScaleEstimate {
 ScaleEstimate given_scale(const ScaleEstimate& found, double factor);
 
 /// Both joined, of which either may be unknown: the mean of logarithms that is surest, unless they
-/// contradict each other by more than 3 σ; then the surer one. Measured depth needs no help.
+/// contradict each other by more than 3 σ; then the surer one.
 ScaleEstimate joined(const ScaleEstimate& pictures, const ScaleEstimate& sizes);
 
 /// Collects what pictures say about the unit of the map.

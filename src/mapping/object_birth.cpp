@@ -54,7 +54,7 @@ double depth_of(const Map& map, const Keyframe& keyframe, const SeenObject& seen
   if (map.units_a_true_metre() > 0) {
     depths = depths_in(map, keyframe, seen, true);
     if (depths.size() >= kFewPoints) return median(depths);
-    const double size = usual_size(seen.class_name) * map.units_a_true_metre();
+    const double size = prior_of(seen.class_name, map.units_a_true_metre()).usual;
     const double pixels = std::sqrt(seen.box.width() * seen.box.height()) / 2;
     const bool whole = std::none_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
     if (size > 0 && whole) return size * map.view().pinhole().fx / pixels;
@@ -167,11 +167,12 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   }
   const double sigma_size = std::sqrt(fit.covariance.bottomRightCorner<3, 3>().sum()) / 3;
   if (!(sigma_size < options.max_sigma_size)) return "size unsure";
-  const double usual = usual_size(landmark.class_name()) * map.units_a_true_metre();
-  if (usual > 0) {
-    const double off = std::log(std::cbrt(fit.ellipsoid.semi_axes.prod()) / usual);
-    const double sigma = std::hypot(find_object_class(landmark.class_name())->sigma, 0.3);
-    if (off > kFarTooLarge * sigma || off < -kFarTooSmall * sigma) return "not of its class's size";
+  const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_true_metre());
+  if (prior.usual > 0) {
+    const double off = std::log(std::cbrt(fit.ellipsoid.semi_axes.prod()) / prior.usual);
+    if (off > kFarTooLarge * prior.sigma_size || off < -kFarTooSmall * prior.sigma_size) {
+      return "not of its class's size";
+    }
   }
   return "";
 }

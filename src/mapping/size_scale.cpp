@@ -31,8 +31,7 @@ ScaleEstimate scale_from_sizes(const Map& map) {
     if (c == nullptr) return;
     const double size = std::cbrt(landmark.ellipsoid.semi_axes.prod());
     if (!(size > 0) || !std::isfinite(size)) return;
-    said.push_back(
-        {std::log(kFitted * usual_size(c->name) / size), std::hypot(c->sigma, kFitSigma)});
+    said.push_back({std::log(kFitted * usual_size(*c) / size), std::hypot(c->sigma, kFitSigma)});
   });
   if (said.empty()) return {};
   std::vector<WeightedValue> values;

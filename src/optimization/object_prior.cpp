@@ -15,9 +15,10 @@ constexpr double kSigmaShape = 0.3;    // of log semi-axes around those of the c
 
 ObjectPrior prior_of(const std::string& class_name, double units_a_metre) {
   ObjectPrior prior;
-  prior.usual = usual_size(class_name) * units_a_metre;
   const ObjectClass* known = find_object_class(class_name);
-  if (known != nullptr) prior.sigma_size = std::hypot(known->sigma, kSigmaOfClass);
+  if (known == nullptr) return prior;
+  prior.usual = usual_size(*known) * units_a_metre;
+  prior.sigma_size = std::hypot(known->sigma, kSigmaOfClass);
   return prior;
 }
 

@@ -91,16 +91,16 @@ void ChartPainter::find_ranges() {
     }
   }
   if (x_.from > x_.to) x_ = y_ = {0, 1};
-  if (chart_.y_min) y_.from = std::min(y_.from, *chart_.y_min);
+  const bool from_y_min = chart_.y_min && y_.from >= *chart_.y_min;
+  if (from_y_min) y_.from = *chart_.y_min;
   for (Range* range : {&x_, &y_}) {
-    // A margin, and some width around a single value.
-    const double margin = std::max({0.04 * range->span(), 1e-3, 1e-9 * std::abs(range->to)});
+    const double size = std::abs(range->to);
+    const bool one_value = range->span() <= 1e-9 * size;
+    const double margin = one_value ? std::max(1e-3, 0.01 * size) : 0.04 * range->span();
     range->from -= margin;
     range->to += margin;
   }
-  if (chart_.y_min && y_.from < *chart_.y_min && y_.from > *chart_.y_min - 0.1 * y_.span()) {
-    y_.from = *chart_.y_min;
-  }
+  if (from_y_min) y_.from = *chart_.y_min;
 }
 
 void ChartPainter::widen_to_equal_scale() {

@@ -24,6 +24,7 @@ const cv::Point2d kBreak(std::numeric_limits<double>::quiet_NaN(),
 
 // Wide and below the estimate, so that it is seen where both agree.
 constexpr double kTruthWidth = 4.5;
+constexpr double kSmallError = 0.1;  // metres, below which it is given in millimetres
 
 cv::Point2d from_above(const PlanView& view, const Vector3d& x) {
   return {view.right.dot(x), view.forward.dot(x)};
@@ -244,7 +245,13 @@ cv::Mat draw_map_plot(const PlotScene& scene) {
 }
 
 cv::Mat draw_error_plot(std::span<const double> timestamps, std::span<const double> errors,
-                        const std::string& title, const std::string& unit) {
+                        const std::string& title) {
+  double sum = 0;
+  for (const double error : errors) sum += error * error;
+  const double rms = errors.empty() ? 0 : std::sqrt(sum / double(errors.size()));
+  const bool small = rms < kSmallError;
+  const double units = small ? 1000 : 1;
+  const std::string unit = small ? "mm" : "m";
   Chart chart;
   chart.title = title.empty() ? "Distance to the ground truth" : title + ": distance to the truth";
   chart.x_label = "time [s]";
@@ -252,19 +259,16 @@ cv::Mat draw_error_plot(std::span<const double> timestamps, std::span<const doub
   chart.y_min = 0;
   ChartSeries line{"error", {}, colours::kEstimate};
   Trajectory times;  // for the gaps
-  double sum = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     times.push_back({timestamps[i], SE3(Eigen::Quaterniond::Identity(), {errors[i], 0, 0})});
-    sum += errors[i] * errors[i];
   }
   if (!errors.empty()) {
     line.points = line_of(times, [&](const StampedPose& pose) {
-      return cv::Point2d(pose.timestamp - timestamps.front(), pose.T_wc.translation().x());
+      return cv::Point2d(pose.timestamp - timestamps.front(), units * pose.T_wc.translation().x());
     });
-    const double rmse = std::sqrt(sum / double(errors.size()));
     const double end = timestamps.back() - timestamps.front();
-    chart.series.push_back({"RMSE " + fixed_text(rmse, rmse < 1 ? 4 : 2) + " " + unit,
-                            {{0, rmse}, {end, rmse}},
+    chart.series.push_back({"RMSE " + fixed_text(units * rms, 2) + " " + unit,
+                            {{0, units * rms}, {end, units * rms}},
                             colours::kAccent});
   }
   chart.series.push_back(std::move(line));

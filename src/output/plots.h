@@ -60,9 +60,10 @@ cv::Mat draw_trajectory_plot(const PlotScene& scene);
 /// The points from above with planes, objects and the path of the keyframes. Far outliers are left
 /// out.
 cv::Mat draw_map_plot(const PlotScene& scene);
-/// Distances between estimate and truth over time, with their RMSE. `timestamps` in seconds.
+/// Distances between estimate and truth over time, with their RMSE. `timestamps` in seconds,
+/// `errors` in metres.
 cv::Mat draw_error_plot(std::span<const double> timestamps, std::span<const double> errors,
-                        const std::string& title, const std::string& unit = "m");
+                        const std::string& title);
 
 /// Throws Error(kOutput).
 void write_png(const std::filesystem::path& file, const cv::Mat& picture);
