@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <ranges>
 
 #include "cairn/output/number_text.h"
 
@@ -192,16 +193,16 @@ void ChartPainter::paint_legend() {
   // In the title's line, from the right: it never hides data there.
   double x = plot_.br().x - (chart_.colour_range ? 70 : 0);  // beside the name of the bar
   const double y = area_.y + 46;
-  for (auto series = chart_.series.rbegin(); series != chart_.series.rend(); ++series) {
-    if (series->name.empty()) continue;
+  for (const ChartSeries& series : std::views::reverse(chart_.series)) {
+    if (series.name.empty()) continue;
     int base = 0;
-    const cv::Size box = cv::getTextSize(series->name, cv::FONT_HERSHEY_SIMPLEX, 0.85, 2, &base);
-    draw_text(canvas_, series->name, {x, y}, Anchor::kRight, 0.85);
+    const cv::Size box = cv::getTextSize(series.name, cv::FONT_HERSHEY_SIMPLEX, 0.85, 2, &base);
+    draw_text(canvas_, series.name, {x, y}, Anchor::kRight, 0.85);
     x -= box.width + 14;
-    if (series->line) {
-      cv::line(canvas_, cv::Point2d(x - 44, y), cv::Point2d(x, y), series->colour, 5, cv::LINE_AA);
+    if (series.line) {
+      cv::line(canvas_, cv::Point2d(x - 44, y), cv::Point2d(x, y), series.colour, 5, cv::LINE_AA);
     } else {
-      cv::circle(canvas_, cv::Point2d(x - 12, y), 8, series->colour, cv::FILLED, cv::LINE_AA);
+      cv::circle(canvas_, cv::Point2d(x - 12, y), 8, series.colour, cv::FILLED, cv::LINE_AA);
     }
     x -= 80;
   }
@@ -247,7 +248,8 @@ std::vector<double> nice_ticks(double from, double to, int wanted) {
   }
   std::vector<double> ticks;
   const double first = std::ceil(from / step - 1e-9), last = std::floor(to / step + 1e-9);
-  for (double k = first; k <= last; ++k) ticks.push_back(k * step);
+  for (std::size_t i = 0; double(i) <= last - first; ++i)
+    ticks.push_back((first + double(i)) * step);
   return ticks;
 }
 
