@@ -38,6 +38,10 @@ struct ObjectObservation {
   SE3 T_kc = {};  ///< of the picture's camera to the keyframe
 };
 
+/// What a thing shares with others of its class, as far as its boxes agree. Nothing: the name is a
+/// mistake, or only a part of it is seen (of a chair behind a table its back).
+enum class Likeness { kNothing, kSize, kSizeAndShape };
+
 /// A thing of the map: a bounded dual quadric, relative to the keyframe that saw it first (the
 /// paper, sections III.A and III.C).
 struct ObjectLandmark {
@@ -55,8 +59,7 @@ struct ObjectLandmark {
   /// is a guess, which only says what to look for.
   bool born = false;
   bool confirmed = false;  ///< it belongs into the final map
-  /// Its boxes agree with the shape of its class, its second axis upright.
-  bool upright = false;
+  Likeness likeness = Likeness::kSize;
   PlaneId support = {};  ///< the plane that it stands on
   /// What its observations are worth: pictures that follow each other err alike.
   double independent = 1;

@@ -16,9 +16,12 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMiddle = 0.6;  // of a box, in which what is seen is mostly the thing itself
 constexpr std::size_t kFewPoints = 3;
-constexpr double kFarTooLarge = 3;     // σ of the class's size
-constexpr double kFarTooSmall = 5;     // the same: of a chair behind a table only the back is seen
-constexpr double kUprightOdds = 8;     // in the cost: things stand as usual rather than in any way
+constexpr double kFarTooLarge = 3;  // σ of the class's size
+constexpr double kLarge = 1;        // the same: larger ones are no part of such a thing
+constexpr double kFarTooSmall = 5;  // the same: of a chair behind a table only the back is seen
+// In the cost: things stand as usual rather than in any way, and are what they are called.
+constexpr double kUprightOdds = 8, kNamedOdds = 4;
+constexpr double kSigmaGround = 0.01;  // metres, between a thing and what it stands on
 constexpr double kShareOfSize = 0.65;  // of a thing's longest semi-axis, that its place may be off
 constexpr double kWithPoints = 2;      // times as much, where the map's points lie there
 constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
@@ -68,11 +71,29 @@ double depth_of(const Map& map, const Keyframe& keyframe, const SeenObject& seen
   return depths.empty() ? 1 : median(depths);
 }
 
+// In σ; 0 where nothing is usual.
+double larger_than_usual(const ObjectPrior& of_class, const Ellipsoid& thing) {
+  if (!(of_class.usual > 0)) return 0;
+  return std::log(std::cbrt(thing.semi_axes.prod()) / of_class.usual) / of_class.sigma_size;
+}
+
+// In the reference's frame.
+std::vector<BoxView> views_of(const Map& map, const ObjectLandmark& landmark) {
+  std::vector<BoxView> views;
+  const SE3 T_wr = map.keyframes()[landmark.reference].T_wc;
+  // Pictures that follow each other err alike.
+  const double worth = landmark.independent / double(landmark.observations.size());
+  for (const ObjectObservation& o : landmark.observations) {
+    const SE3 T_cr = map.camera_of(o).inverse() * T_wr;
+    views.push_back({T_cr, o.box, o.cut, o.sigma, worth * o.score});
+  }
+  return views;
+}
+
 // Which of the two horizontal axes is the longer one, only a try can tell.
-ObjectFit fit_upright(const Ellipsoid& start, std::span<const BoxView> views,
-                      const Pinhole& pinhole, const ObjectPrior& prior, const ObjectClass& of_class,
+ObjectFit fit_upright(const Ellipsoid& start, const Eigen::Vector3d& axes,
+                      std::span<const BoxView> views, const Pinhole& pinhole, ObjectPrior prior,
                       const Upward& up) {
-  const Eigen::Vector3d axes(of_class.semi_axes);
   Eigen::Index longest = 0;
   const double scale = start.semi_axes.maxCoeff(&longest) / axes.maxCoeff();
   Eigen::Vector3d x = start.T.matrix3().col(longest);
@@ -83,9 +104,8 @@ ObjectFit fit_upright(const Ellipsoid& start, std::span<const BoxView> views,
     Eigen::Matrix3d R;
     R << along, up.direction, along.cross(up.direction);
     const Ellipsoid turned{SE3(R, start.centre()), scale * axes};
-    ObjectPrior expected = prior;
-    expect_upright(expected, of_class, turned.T.rotation(), up);
-    const ObjectFit fit = fit_object(turned, views, pinhole, expected);
+    expect_upright(prior, turned.T.rotation(), up);
+    const ObjectFit fit = fit_object(turned, views, pinhole, prior);
     if (fit.usable && (!best.usable || fit.cost < best.cost)) best = fit;
   }
   return best;
@@ -126,23 +146,36 @@ Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenOb
 }
 
 BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark) {
-  std::vector<BoxView> views;
   const SE3 T_wr = map.keyframes()[landmark.reference].T_wc;
-  // Pictures that follow each other err alike.
-  const double worth = landmark.independent / double(landmark.observations.size());
-  for (const ObjectObservation& o : landmark.observations) {
-    const SE3 T_cr = map.camera_of(o).inverse() * T_wr;
-    views.push_back({T_cr, o.box, o.cut, o.sigma, worth * o.score});
-  }
-  const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_true_metre());
-  BoxFit free{fit_object(landmark.ellipsoid, views, map.view().pinhole(), prior), false};
+  const std::vector<BoxView> views = views_of(map, landmark);
+  const Pinhole& pinhole = map.view().pinhole();
+  ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_true_metre());
+  BoxFit best{fit_object(landmark.ellipsoid, views, pinhole, prior)};
   const ObjectClass* known = find_object_class(landmark.class_name());
-  if (!map.up || known == nullptr) return free;
+  if (!map.up || known == nullptr) return best;
   const Upward up{T_wr.rotation().conjugate() * map.up->direction, map.up->sigma};
-  const BoxFit upright{
-      fit_upright(free.fit.ellipsoid, views, map.view().pinhole(), prior, *known, up), true};
-  const bool better = !free.fit.usable || upright.fit.cost < free.fit.cost + kUprightOdds;
-  return upright.fit.usable && better ? upright : free;
+  const Ellipsoid start = best.fit.ellipsoid;
+  double least = best.fit.usable ? best.fit.cost : HUGE_VAL;
+  const auto consider = [&](const ObjectFit& fit, Likeness likeness, double odds) {
+    if (!fit.usable || !(fit.cost - odds < least)) return;
+    least = fit.cost - odds;
+    best = {fit, likeness};
+  };
+  expect_shape(prior, *known);
+  consider(fit_upright(start, Eigen::Vector3d(known->semi_axes), views, pinhole, prior, up),
+           Likeness::kSizeAndShape, kUprightOdds);
+  // A part of a thing, or a shadow, is not born; and no fit costs less than nothing.
+  if (!landmark.born || least < kNamedOdds) return best;
+  ObjectPrior unlike;
+  if (map.planes().contains(landmark.support)) {
+    unlike.ground = map.plane_in_world(landmark.support).transformed(T_wr.inverse());
+    unlike.sigma_ground = kSigmaGround * map.units_a_true_metre();
+  }
+  const ObjectFit fit = fit_upright(start, Eigen::Vector3d::Ones(), views, pinhole, unlike, up);
+  // What is somewhat large may be what it is called; what is far too large is not.
+  const double larger = larger_than_usual(prior, fit.ellipsoid);
+  if (larger < kLarge || larger > kFarTooLarge) consider(fit, Likeness::kNothing, -kNamedOdds);
+  return best;
 }
 
 std::string refusal(const Map& map, const ObjectLandmark& landmark, const ObjectFit& fit,
@@ -167,19 +200,15 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   }
   const double sigma_size = std::sqrt(fit.covariance.bottomRightCorner<3, 3>().sum()) / 3;
   if (!(sigma_size < options.max_sigma_size)) return "size unsure";
-  const ObjectPrior prior = prior_of(landmark.class_name(), map.units_a_true_metre());
-  if (prior.usual > 0) {
-    const double off = std::log(std::cbrt(fit.ellipsoid.semi_axes.prod()) / prior.usual);
-    if (off > kFarTooLarge * prior.sigma_size || off < -kFarTooSmall * prior.sigma_size) {
-      return "not of its class's size";
-    }
-  }
+  const double larger =
+      larger_than_usual(prior_of(landmark.class_name(), map.units_a_true_metre()), fit.ellipsoid);
+  if (larger > kFarTooLarge || larger < -kFarTooSmall) return "not of its class's size";
   return "";
 }
 
 void accept(ObjectLandmark& landmark, const BoxFit& found) {
   const ObjectFit& fit = found.fit;
-  landmark.upright = found.upright;
+  landmark.likeness = found.likeness;
   landmark.ellipsoid = fit.ellipsoid;
   const Eigen::Matrix3d R = fit.ellipsoid.T.matrix3();
   landmark.covariance = R * fit.covariance.topLeftCorner<3, 3>() * R.transpose();

@@ -24,13 +24,15 @@ struct ObjectBirthOptions {
 Ellipsoid guess_ellipsoid(const Map& map, const Keyframe& keyframe, const SeenObject& seen);
 
 struct BoxFit {
-  ObjectFit fit;         ///< in the reference's frame
-  bool upright = false;  ///< with the shape of its class, its height upright
+  ObjectFit fit;  ///< in the reference's frame
+  Likeness likeness = Likeness::kSize;
 };
 
 /// The fit of all boxes of an object, cameras as the map has them; starts from where it is. Few
 /// pictures show all sides of a thing: so it is fitted as a thing of its class that stands or lies
-/// as usual, too, and is one if its boxes do not deny it.
+/// as usual, too, and is one if its boxes do not deny it. What was born, and whose boxes then deny
+/// even the size of its class, is fitted as something that stands; unless that is somewhat large,
+/// which things of its class may be.
 BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark);
 
 /// Why a fit is no object; empty if it is one.

@@ -29,6 +29,9 @@ constexpr double kCovered = 0.3;  // of what is seen where a thing should be, be
 // Detectors see some things in one picture of four, for seconds.
 constexpr int kPatience = 3;  // pictures that miss a thing, a picture that shows it
 
+// In the order of Likeness.
+constexpr const char* kLikeness[] = {"unlike its class, ", "", "upright, "};
+
 void update_evidence(ObjectLandmark& landmark) {
   std::vector<double> times;
   for (const ObjectObservation& o : landmark.observations) times.push_back(o.time);
@@ -299,7 +302,7 @@ void settle_objects(Map& map, const ObjectMappingOptions& options) {
     spdlog::debug(
         "object {}: {} pictures, {} missed, {}: {}", landmark.class_name(), landmark.sightings,
         landmark.missed, fit.to_string(),
-        (found.upright ? "upright, " : "") + (landmark.confirmed ? "kept" : "refused: " + reason));
+        kLikeness[int(found.likeness)] + (landmark.confirmed ? "kept" : "refused: " + reason));
     if (!landmark.confirmed) map.erase_object(id);
   });
   fuse_objects(map);

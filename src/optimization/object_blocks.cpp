@@ -77,12 +77,18 @@ void ObjectBlocks::add_prior(Entry& entry) {
   const ObjectLandmark& landmark = map_.objects()[entry.id];
   const ObjectClass* known = find_object_class(landmark.class_name());
   const bool paper = options_.size.form == FactorForm::kPaper;
-  ObjectPrior prior = prior_of(landmark.class_name(), map_.units_a_true_metre());
+  ObjectPrior prior;
+  if (landmark.likeness != Likeness::kNothing) {
+    prior = prior_of(landmark.class_name(), map_.units_a_true_metre());
+  }
   prior.turn = landmark.ellipsoid.T.rotation();
-  if (landmark.upright && known != nullptr && map_.up) {
+  if (landmark.likeness != Likeness::kSize && map_.up) {
     const SE3& T_wr = map_.keyframes()[landmark.reference].T_wc;
-    expect_upright(prior, *known, prior.turn,
+    expect_upright(prior, prior.turn,
                    {T_wr.rotation().conjugate() * map_.up->direction, map_.up->sigma});
+  }
+  if (landmark.likeness == Likeness::kSizeAndShape && known != nullptr) {
+    expect_shape(prior, *known);
   } else if (paper && known != nullptr) {
     prior.shape = class_shape(*known);
   }

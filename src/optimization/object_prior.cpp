@@ -22,13 +22,15 @@ ObjectPrior prior_of(const std::string& class_name, double units_a_metre) {
   return prior;
 }
 
-// Upside down is upright, too.
-void expect_upright(ObjectPrior& prior, const ObjectClass& of_class, const Eigen::Quaterniond& axes,
-                    const Upward& up) {
-  const Vector3d height = axes * Vector3d::UnitY();
-  const Vector3d side = height.dot(up.direction) < 0 ? -up.direction : up.direction;
+void expect_shape(ObjectPrior& prior, const ObjectClass& of_class) {
   prior.shape = class_shape(of_class);
   prior.sigma_shape = kSigmaShape;
+}
+
+// Upside down is upright, too.
+void expect_upright(ObjectPrior& prior, const Eigen::Quaterniond& axes, const Upward& up) {
+  const Vector3d height = axes * Vector3d::UnitY();
+  const Vector3d side = height.dot(up.direction) < 0 ? -up.direction : up.direction;
   prior.turn = Eigen::Quaterniond::FromTwoVectors(height, side) * axes;
   prior.sigma_turn = {up.sigma, HUGE_VAL, up.sigma};
 }
@@ -43,6 +45,21 @@ Vector3d turn_residual(const ObjectPrior& prior, const Eigen::Quaterniond& q, Ma
     *by_step = (information.asDiagonal() * *by_step).eval();
   }
   return 2 * information.cwiseProduct(turn.vec());
+}
+
+double ground_residual(const ObjectPrior& prior, const Ellipsoid& e,
+                       Eigen::Matrix<double, 1, 9>* by_step) {
+  if (by_step) by_step->setZero();
+  if (!prior.ground) return 0;
+  const Vector3d a = e.T.rotation().conjugate() * prior.ground->normal();
+  const Vector3d s2a = e.semi_axes.cwiseAbs2().cwiseProduct(a);
+  const double reach = e.semi_axes.cwiseProduct(a).norm();
+  if (by_step) {
+    *by_step << a.transpose(), -s2a.cross(a).transpose() / reach,
+        -s2a.cwiseProduct(a).transpose() / reach;
+    *by_step /= prior.sigma_ground;
+  }
+  return (prior.ground->signed_distance(e.centre()) - reach) / prior.sigma_ground;
 }
 
 }  // namespace cairn

@@ -52,10 +52,10 @@ TEST(FitToBoxes, FindsAKeyboardFlatWhereUpIsKnownAndThickWhereItIsNot) {
   const Ellipsoid keyboard = lying({0.27, 0.02, 0.09});
   Film film(keyboard, "keyboard", 15);
   const BoxFit thick = film.fit();
-  EXPECT_FALSE(thick.upright);
+  EXPECT_EQ(thick.likeness, Likeness::kSize);
   film.map.up = {kUp, 0.05};
   const BoxFit flat = film.fit();
-  EXPECT_TRUE(flat.upright);
+  EXPECT_EQ(flat.likeness, Likeness::kSizeAndShape);
   EXPECT_GT(film.overlap(keyboard, flat), film.overlap(keyboard, thick) + 0.1);
 }
 
@@ -63,15 +63,26 @@ TEST(FitToBoxes, LetsABottleLieThatItsBoxesShowLying) {
   const Ellipsoid bottle = lying({0.045, 0.16, 0.045}, M_PI / 2);
   Film film(bottle, "bottle", 50);
   film.map.up = {kUp, 0.05};
-  EXPECT_FALSE(film.fit().upright);
+  EXPECT_EQ(film.fit().likeness, Likeness::kSize);
   EXPECT_GT(film.overlap(bottle, film.fit()), 0.6);
 }
 
 TEST(FitToBoxes, TakesWhatIsOfNoKnownClassAsItIs) {
   Film film(lying({0.1, 0.08, 0.12}), "anvil", 40);
   film.map.up = {kUp, 0.05};
-  EXPECT_FALSE(film.fit().upright);
+  EXPECT_EQ(film.fit().likeness, Likeness::kSize);
   EXPECT_TRUE(film.fit().fit.usable);
+}
+
+TEST(FitToBoxes, BelievesNoNameThatItsBoxesDeny) {
+  const Ellipsoid tub = lying({0.17, 0.06, 0.1});
+  Film film(tub, "cell phone", 60);
+  film.map.up = {kUp, 0.05};
+  EXPECT_NE(film.fit().likeness, Likeness::kNothing) << "a guess has to be like its class";
+  film.map.objects()[testing::objects_of(film.map)[0]].born = true;
+  const BoxFit found = film.fit();
+  EXPECT_EQ(found.likeness, Likeness::kNothing);
+  EXPECT_GT(film.overlap(tub, found), 0.7);
 }
 
 // Why a thing is none whose fit knows its place to `sigma` metres along each axis.

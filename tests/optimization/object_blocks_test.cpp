@@ -115,6 +115,22 @@ TEST(ObjectsInAnAdjustment, ComeToTheirBoxesInThePaperFormToo) {
   EXPECT_GT(intersection_over_union(in_world(map, id), truth), before);
 }
 
+TEST(ObjectsInAnAdjustment, AreHeldToTheSizeOfTheirClassUnlessTheirBoxesDenyIt) {
+  const Ellipsoid truth = thing({0.3, 0.1, 3});
+  const auto size_as = [&](Likeness likeness) {
+    Map map = points_map();
+    map.units_a_metre = 1;
+    const ObjectId id = add_object(map, truth);
+    map.objects()[id].votes = {{"cell phone", 1}};
+    map.objects()[id].likeness = likeness;
+    EXPECT_TRUE(adjust_fully(map, {}, nullptr).usable);
+    return std::cbrt(in_world(map, id).semi_axes.prod());
+  };
+  const double size = std::cbrt(truth.semi_axes.prod());
+  EXPECT_LT(size_as(Likeness::kSize), 0.95 * size);
+  EXPECT_GT(size_as(Likeness::kNothing), 0.98 * size);
+}
+
 // A keyframe that sees no points but four things.
 TEST(ObjectsInAnAdjustment, PullADisplacedCamera) {
   for (const bool objects : {false, true}) {

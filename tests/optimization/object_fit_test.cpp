@@ -167,6 +167,43 @@ TEST(ObjectFit, HasTheSizeAndShapeOfItsClassWhereItsBoxesSayNothing) {
   EXPECT_LT((fit.ellipsoid.semi_axes - axes).norm(), 1e-3) << fit.ellipsoid.semi_axes.transpose();
 }
 
+TEST(ObjectFit, StandsOnItsGroundWhereItsBoxesSayNoHeight) {
+  const Plane floor(Vector3d::UnitZ(), 0.4);
+  ObjectPrior prior{.usual = 0.15};
+  prior.ground = floor;
+  prior.sigma_ground = 0.005;
+  auto views = views_of(60);
+  for (BoxView& view : views) view.cut[3] = true;  // something hides where it ends
+  const ObjectFit fit = fit_object(kStart, views, kCamera, prior);
+  ASSERT_TRUE(fit.usable);
+  EXPECT_NEAR(ground_residual(prior, fit.ellipsoid, nullptr), 0, 2);
+  prior.ground.reset();
+  EXPECT_EQ(ground_residual(prior, fit.ellipsoid, nullptr), 0);
+}
+
+TEST(ObjectPrior, HasTheTrueDerivativeOfTheGapToTheGround) {
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    ObjectPrior prior;
+    prior.ground = Plane(random.direction(), random.uniform(-1, 1));
+    prior.sigma_ground = 0.02;
+    const Ellipsoid e{random.motion(1, 2), {0.1, 0.2, 0.3}};
+    Eigen::Matrix<double, 1, 9> by_step;
+    ground_residual(prior, e, &by_step);
+    for (int k = 0; k < 9; ++k) {
+      const auto at = [&](double h) {
+        Eigen::Matrix<double, 9, 1> step = Eigen::Matrix<double, 9, 1>::Zero();
+        step[k] = h;
+        return ground_residual(
+            prior,
+            {e.T * SE3::exp(step.head<6>()), e.semi_axes.array() * step.tail<3>().array().exp()},
+            nullptr);
+      };
+      EXPECT_NEAR(by_step[k], (at(1e-6) - at(-1e-6)) / 2e-6, 1e-4) << k;
+    }
+  }
+}
+
 TEST(ObjectFit, SaysHowUnsureItIs) {
   const ObjectPrior prior{.usual = 0.15};
   const ObjectFit narrow = fit_object(kStart, views_of(10, 1), kCamera, prior);

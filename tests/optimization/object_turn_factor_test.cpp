@@ -49,7 +49,7 @@ TEST(ObjectTurnFactor, PullsTheHeightUprightAndLeavesTheTurnAroundIt) {
   const Vector3d tilted(0.3, 0.8, -0.2);
   double* object = graph.add(Ellipsoid{SE3(so3_exp(tilted), {0, 0, 2}), {0.1, 0.2, 0.3}});
   ObjectPrior prior;
-  expect_upright(prior, *find_object_class("bottle"), so3_exp(tilted), {Vector3d::UnitY(), 0.05});
+  expect_upright(prior, so3_exp(tilted), {Vector3d::UnitY(), 0.05});
   graph.connect(new ObjectTurnFactor(prior), nullptr, object);
   graph.solve();
   const SE3 T = ObjectManifold::unpack(object).T;
