@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
-#include <ranges>
 
 #include "cairn/output/number_text.h"
 
@@ -193,7 +192,8 @@ void ChartPainter::paint_legend() {
   // In the title's line, from the right: it never hides data there.
   double x = plot_.br().x - (chart_.colour_range ? 70 : 0);  // beside the name of the bar
   const double y = area_.y + 46;
-  for (const ChartSeries& series : std::views::reverse(chart_.series)) {
+  for (std::size_t i = chart_.series.size(); i-- > 0;) {
+    const ChartSeries& series = chart_.series[i];
     if (series.name.empty()) continue;
     int base = 0;
     const cv::Size box = cv::getTextSize(series.name, cv::FONT_HERSHEY_SIMPLEX, 0.85, 2, &base);
