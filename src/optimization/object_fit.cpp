@@ -130,10 +130,13 @@ class Problem {
       normal->H.block<3, 3>(3, 3) += by_turn.transpose() * by_turn;
       normal->g.segment<3>(3) += by_turn.transpose() * turn;
     }
-    Eigen::Matrix<double, 1, 9> by_step;
-    const Eigen::Matrix<double, 1, 1> ground(ground_residual(prior_, e, &by_step));
-    sum += ground.squaredNorm();
-    if (normal) normal->add<1>(1, by_step, ground);
+    if (prior_.ground) {
+      Eigen::Matrix<double, 1, 9> by_step;
+      const Eigen::Matrix<double, 1, 1> gap(
+          ground_residual(prior_, e, normal ? &by_step : nullptr));
+      sum += gap.squaredNorm();
+      if (normal) normal->add<1>(1, by_step, gap);
+    }
     add(prior_.sigma_shape, shape - prior_.shape, identity - Matrix3d::Constant(1.0 / 3));
     if (prior_.usual > 0) {
       const Vector3d usual = prior_.shape.array() + std::log(prior_.usual);

@@ -248,8 +248,7 @@ std::vector<double> nice_ticks(double from, double to, int wanted) {
   }
   std::vector<double> ticks;
   const double first = std::ceil(from / step - 1e-9), last = std::floor(to / step + 1e-9);
-  for (std::size_t i = 0; double(i) <= last - first; ++i)
-    ticks.push_back((first + double(i)) * step);
+  for (int i = 0; i <= last - first; ++i) ticks.push_back((first + i) * step);
   return ticks;
 }
 
