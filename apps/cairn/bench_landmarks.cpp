@@ -52,12 +52,26 @@ std::vector<Set> chosen_sets(bool objects) {
 struct Row {
   std::string sequence, set;
   std::vector<double> ate, coverage, scale_error;  // NaN where there is none
+  // On the frames that both this set and the first one of the sequence (`points`) track: a set that
+  // keeps the camera where the other loses it is to be compared where both have it.
+  std::vector<double> common_ate, first_ate;
 };
 
 // Of those that there are; NaN without any.
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   return values.empty() ? kNone : median(values);
+}
+
+// Of the error of points alone, what is left with the set.
+double over_points(const Row& row) { return median_of(row.common_ate) / median_of(row.first_ate); }
+
+double over_points(const std::vector<Row>& rows, const std::string& set) {
+  std::vector<double> ratios;
+  for (const Row& row : rows) {
+    if (row.set == set) ratios.push_back(over_points(row));
+  }
+  return median_of(ratios);
 }
 
 double worst_of(const std::vector<double>& values) {
@@ -93,9 +107,21 @@ class SimulatedPerception : public PlaneDetector {
   PerceptionSimulator simulator_;
 };
 
-void add_figures(const SlamResult& result, const Trajectory& truth,
+// NaN where too little was tracked to compare.
+double ate_of(const Trajectory& truth, const Trajectory& estimate) {
+  try {
+    return evaluate(truth, estimate).ate.rmse;
+  } catch (const Error&) {
+    return kNone;
+  }
+}
+
+// `first`: the result of the first set on the same frames.
+void add_figures(const SlamResult& result, const SlamResult& first, const Trajectory& truth,
                  const std::vector<double>& times, Row& row) {
   row.ate.push_back(kNone), row.coverage.push_back(0), row.scale_error.push_back(kNone);
+  row.common_ate.push_back(ate_of(truth, common_poses(result.trajectory, first.trajectory)));
+  row.first_ate.push_back(ate_of(truth, common_poses(first.trajectory, result.trajectory)));
   try {
     const EvaluationReport report = evaluate(truth, result.trajectory, {}, times);
     row.ate.back() = report.ate.rmse;
@@ -133,14 +159,19 @@ void run_sets(const std::vector<Set>& sets, FrameSource& frames, const Camera& c
     progress.show(rows[0].sequence + ", seed " + std::to_string(seed));
   }
   if (interrupted()) return;  // half a run is no figure
+  std::vector<SlamResult> results;
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    add_figures(systems[i]->finish(), truth, times, rows[i]);
+    results.push_back(systems[i]->finish());
+    add_figures(results[i], results[0], truth, times, rows[i]);
   }
 }
 
 std::vector<Row> new_rows(const std::string& sequence, const std::vector<Set>& sets) {
   std::vector<Row> rows;
-  for (const Set& set : sets) rows.push_back({sequence, set.name, {}, {}, {}});
+  for (const Set& set : sets) {
+    Row& row = rows.emplace_back();
+    row.sequence = sequence, row.set = set.name;
+  }
   return rows;
 }
 
@@ -226,6 +257,7 @@ nlohmann::json to_json(const Row& row) {
           {"set", row.set},
           {"ate", row.ate},  // NaN is written as null
           {"ate_median", median_of(row.ate)},
+          {"over_points", over_points(row)},
           {"coverage", median_of(row.coverage)},
           {"scale_error", median_of(row.scale_error)}};
 }
@@ -233,15 +265,26 @@ nlohmann::json to_json(const Row& row) {
 void print_table(const std::vector<Row>& rows) {
   std::printf(
       "ATE in metres after Sim3, median [worst] of the seeds; coverage and error of scale: "
-      "median\n\n");
-  std::printf("%-24s %-8s %18s %10s %12s\n", "sequence", "set", "ATE", "coverage", "scale error");
+      "median;\nover points: the ratio of the medians, on the frames that points track, too\n\n");
+  std::printf("%-24s %-8s %18s %12s %10s %12s\n", "sequence", "set", "ATE", "over points",
+              "coverage", "scale error");
   for (const Row& row : rows) {
-    char ate[40], scale[20] = "-";
+    char ate[40], ratio[20] = "-", scale[20] = "-";
     std::snprintf(ate, sizeof ate, "%.4f [%.4f]", median_of(row.ate), worst_of(row.ate));
+    if (!std::isnan(over_points(row))) {
+      std::snprintf(ratio, sizeof ratio, "%.2f", over_points(row));
+    }
     const double error = median_of(row.scale_error);
     if (!std::isnan(error)) std::snprintf(scale, sizeof scale, "%.1f %%", 100 * error);
-    std::printf("%-24s %-8s %18s %8.1f %% %12s\n", table_name(row.sequence).c_str(),
-                row.set.c_str(), ate, 100 * median_of(row.coverage), scale);
+    std::printf("%-24s %-8s %18s %12s %8.1f %% %12s\n", table_name(row.sequence).c_str(),
+                row.set.c_str(), ate, ratio, 100 * median_of(row.coverage), scale);
+  }
+  if (rows.empty() || rows.front().sequence == rows.back().sequence) return;
+  std::printf("\n");
+  for (const Set& set : kSets) {
+    const double ratio = over_points(rows, set.name);
+    if (std::isnan(ratio)) continue;
+    std::printf("%-24s %-8s %18s %12.2f\n", "median of the sequences", set.name, "", ratio);
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string run, groundtruth, world, depth, align = "sim3";
+  std::string run, groundtruth, common, world, depth, align = "sim3";
   EvaluationOptions options;
   WorldEvaluationOptions world_options;
   bool json = false;
@@ -59,13 +59,29 @@ void add_claims(const nlohmann::json& summary, EvaluationReport& report) {
   if (sigma.is_number()) report.scale_sigma = sigma.get<double>();
 }
 
+// Of a folder that `cairn run` wrote, or of a file by cairn or by anything else.
+Trajectory read_estimate(const fs::path& run) {
+  return read_groundtruth(fs::is_directory(run) ? run / "trajectory.txt" : run, "tum");
+}
+
+Trajectory estimate_of(const Arguments& arguments) {
+  Trajectory estimate = read_estimate(arguments.run);
+  if (arguments.common.empty()) return estimate;
+  estimate = common_poses(estimate, read_estimate(arguments.common));
+  if (estimate.empty()) {
+    throw Error(Error::Kind::kInput, arguments.common + ": has no frame in common with " +
+                                         arguments.run + "; give a run of the same sequence");
+  }
+  return estimate;
+}
+
 int evaluate_run(const Arguments& arguments) {
   const fs::path run = arguments.run;
   if (!fs::exists(run)) {
     throw Error(Error::Kind::kInput,
                 run.string() + ": there is no such folder; give the folder that `cairn run` wrote");
   }
-  const bool folder = fs::is_directory(run);  // else a trajectory, of cairn or of anything else
+  const bool folder = fs::is_directory(run);
   EvaluationOptions options = arguments.options;
   options.alignment = parse_alignment(arguments.align);
   if (!folder && arguments.groundtruth.empty()) {
@@ -80,7 +96,7 @@ int evaluate_run(const Arguments& arguments) {
   const nlohmann::json summary = read_summary(run);
   const std::string truth_file = find_groundtruth(arguments, summary);
   const Trajectory truth = read_groundtruth(truth_file);
-  const Trajectory estimate = read_groundtruth(folder ? run / "trajectory.txt" : run, "tum");
+  const Trajectory estimate = estimate_of(arguments);
   const auto times = folder ? frame_times(run) : std::vector<double>();
   EvaluationReport report = evaluate(truth, estimate, options, times);
   add_claims(summary, report);
@@ -158,6 +174,10 @@ Action add_evaluate(CLI::App& program) {
       ->add_option("--groundtruth", arguments->groundtruth,
                    "true poses; default: those of the sequence")
       ->type_name("FILE");
+  command
+      ->add_option("--common", arguments->common,
+                   "another run (or TUM trajectory): judge only the frames that it has, too")
+      ->type_name("RUN_DIR");
   command->add_option("--align", arguments->align, "sim3 (default), se3 or none")
       ->check(CLI::IsMember({"sim3", "se3", "none"}));
   command

@@ -95,6 +95,14 @@ std::string to_string(Alignment alignment) {
   return "none";
 }
 
+Trajectory common_poses(const Trajectory& poses, const Trajectory& others, double max_difference) {
+  Trajectory common;
+  for (const auto& [i, j] : associate(times_of(poses), times_of(others), max_difference)) {
+    common.push_back(poses[i]);
+  }
+  return common;
+}
+
 EvaluationReport evaluate(const Trajectory& truth, const Trajectory& estimate,
                           const EvaluationOptions& options, std::span<const double> frame_times) {
   const auto truth_times = times_of(truth), estimate_times = times_of(estimate);

@@ -47,6 +47,11 @@ EvaluationReport evaluate(const Trajectory& truth, const Trajectory& estimate,
                           const EvaluationOptions& options = {},
                           std::span<const double> frame_times = {});
 
+/// Those of the poses whose frames `others` have, too: where two runs do not hold the same frames,
+/// only on these can they be compared. Times are on one clock, `max_difference` in seconds.
+Trajectory common_poses(const Trajectory& poses, const Trajectory& others,
+                        double max_difference = 0.001);
+
 /// "sim3", "se3", "none"; anything else throws Error(kUsage).
 Alignment parse_alignment(const std::string& name);
 std::string to_string(Alignment alignment);

@@ -115,6 +115,10 @@ TEST_F(LandmarksRun, SetsOfLandmarksAreComparedInATable) {
     EXPECT_EQ(row.at("ate").at(0), row.at("ate_median"));
     EXPECT_LT(row.at("ate_median").get<double>(), 0.01);
     EXPECT_GT(row.at("coverage").get<double>(), 0.9);
+    EXPECT_GT(row.at("over_points").get<double>(), 0.1);
+    if (row.at("set") == "points") {
+      EXPECT_EQ(row.at("over_points"), 1);
+    }
     // Whether a few things of a desk give a scale of their own is another matter.
     if (row.at("set") == "po") continue;
     EXPECT_EQ(row.at("scale_error").is_null(), row.at("set") == "points");

@@ -60,6 +60,18 @@ TEST_F(WorldEvaluation, UsesTheAlignmentOfTheTrajectory) {
   EXPECT_EQ(nlohmann::json::parse(ran.output).at("objects").at("missed"), 1);
 }
 
+TEST_F(WorldEvaluation, JudgesOnlyTheFramesThatAnotherRunHasToo) {
+  {
+    std::ofstream other(folder_ / "other.txt");
+    for (int i = 10; i < 22; ++i) other << 0.1 * i << " 0 0 0 0 0 0 1\n";
+  }
+  const Ran ran = evaluate("--json --common " + (folder_ / "other.txt"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const nlohmann::json json = nlohmann::json::parse(ran.output);
+  EXPECT_EQ(json.at("pairs"), 12);
+  EXPECT_NEAR(json.at("scale").get<double>(), 2, 1e-4);
+}
+
 TEST_F(WorldEvaluation, AUnitThatNobodyCallsAMetreIsNotWrong) {
   const auto scale_error = [&](const std::string& how) {
     std::ofstream(folder_ / "run/summary.json") << R"({"scale": {"how": ")" << how << R"("}})";
@@ -87,6 +99,9 @@ TEST_F(WorldEvaluation, SaysWhatIsWrongInOneSentence) {
   const std::string truth = " --groundtruth " + (folder_ / "groundtruth.txt");
   fails(run + truth + " --world " + (folder_ / "none.json"), 3, "none.json: cannot be read");
   fails(run + " --world " + world + " --plane-angle 0", 2, "--plane-angle");
+  fails(run + truth + " --common " + (folder_ / "none.txt"), 3, "none.txt");
+  std::ofstream(folder_ / "other.txt") << "1000 0 0 0 0 0 0 1\n";
+  fails(run + truth + " --common " + (folder_ / "other.txt"), 3, "no frame in common");
   fails(run + "/trajectory.txt" + truth + " --world " + world, 2, "--world judges");
   std::ofstream(folder_ / "run/planes.json") << R"({"planes": [{"id": 1, "label": "wall"}]})";
   fails(run + " --world " + world, 3, "planes[0]: \"normal\" is missing");

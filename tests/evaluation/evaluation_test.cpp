@@ -64,6 +64,20 @@ TEST(Associate, TakesEmptyLists) {
   EXPECT_TRUE(associate(std::vector<double>{1}, {}, 1).empty());
 }
 
+TEST(CommonPoses, AreThoseOfTheFramesThatBothHave) {
+  const Trajectory all = spiral(10);
+  Trajectory some(all.begin() + 2, all.begin() + 5);
+  some.push_back({all.back().timestamp + 1, SE3()});
+  for (StampedPose& pose : some) pose.timestamp += 2e-4, pose.T_wc = SE3();
+  const Trajectory common = common_poses(all, some);
+  ASSERT_EQ(common.size(), 3U);
+  for (std::size_t i = 0; i < common.size(); ++i) {
+    EXPECT_EQ(common[i].timestamp, all[i + 2].timestamp);
+    EXPECT_EQ(common[i].T_wc.matrix(), all[i + 2].T_wc.matrix());
+  }
+  EXPECT_TRUE(common_poses(all, {}).empty());
+}
+
 TEST(AlignTrajectory, FindsAKnownTransformExactly) {
   const Trajectory truth = spiral(30);
   const SE3 T(so3_exp({0.4, -1.2, 2.0}), {5, -3, 1});
