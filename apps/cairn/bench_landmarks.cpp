@@ -116,12 +116,12 @@ double ate_of(const Trajectory& truth, const Trajectory& estimate) {
   }
 }
 
-// `first`: the result of the first set on the same frames.
-void add_figures(const SlamResult& result, const SlamResult& first, const Trajectory& truth,
+// `first`: the path of the first set on the same frames.
+void add_figures(const SlamResult& result, const Trajectory& first, const Trajectory& truth,
                  const std::vector<double>& times, Row& row) {
   row.ate.push_back(kNone), row.coverage.push_back(0), row.scale_error.push_back(kNone);
-  row.common_ate.push_back(ate_of(truth, common_poses(result.trajectory, first.trajectory)));
-  row.first_ate.push_back(ate_of(truth, common_poses(first.trajectory, result.trajectory)));
+  row.common_ate.push_back(ate_of(truth, common_poses(result.trajectory, first)));
+  row.first_ate.push_back(ate_of(truth, common_poses(first, result.trajectory)));
   try {
     const EvaluationReport report = evaluate(truth, result.trajectory, {}, times);
     row.ate.back() = report.ate.rmse;
@@ -159,10 +159,11 @@ void run_sets(const std::vector<Set>& sets, FrameSource& frames, const Camera& c
     progress.show(rows[0].sequence + ", seed " + std::to_string(seed));
   }
   if (interrupted()) return;  // half a run is no figure
-  std::vector<SlamResult> results;
+  Trajectory first;
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    results.push_back(systems[i]->finish());
-    add_figures(results[i], results[0], truth, times, rows[i]);
+    const SlamResult result = systems[i]->finish();
+    if (i == 0) first = result.trajectory;
+    add_figures(result, first, truth, times, rows[i]);
   }
 }
 
@@ -271,10 +272,8 @@ void print_table(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     char ate[40], ratio[20] = "-", scale[20] = "-";
     std::snprintf(ate, sizeof ate, "%.4f [%.4f]", median_of(row.ate), worst_of(row.ate));
-    if (!std::isnan(over_points(row))) {
-      std::snprintf(ratio, sizeof ratio, "%.2f", over_points(row));
-    }
-    const double error = median_of(row.scale_error);
+    const double over = over_points(row), error = median_of(row.scale_error);
+    if (!std::isnan(over)) std::snprintf(ratio, sizeof ratio, "%.2f", over);
     if (!std::isnan(error)) std::snprintf(scale, sizeof scale, "%.1f %%", 100 * error);
     std::printf("%-24s %-8s %18s %12s %8.1f %% %12s\n", table_name(row.sequence).c_str(),
                 row.set.c_str(), ate, ratio, 100 * median_of(row.coverage), scale);
