@@ -15,6 +15,10 @@ struct Ellipsoid {
 
   const Eigen::Vector3d& centre() const { return T.translation(); }
   double volume() const { return 4.0 / 3.0 * M_PI * semi_axes.prod(); }
+  /// Along a unit vector, from the centre to the tangent plane.
+  double reach(const Eigen::Vector3d& direction) const {
+    return semi_axes.cwiseProduct(T.rotation().conjugate() * direction).norm();
+  }
   bool contains(const Eigen::Vector3d& x) const {
     return (T.inverse() * x).cwiseQuotient(semi_axes).squaredNorm() <= 1;
   }

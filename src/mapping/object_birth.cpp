@@ -24,6 +24,9 @@ constexpr double kUprightOdds = 8, kNamedOdds = 4;
 constexpr double kSigmaGround = 0.01;  // metres, between a thing and what it stands on
 constexpr double kShareOfSize = 0.65;  // of a thing's longest semi-axis, that its place may be off
 constexpr double kWithPoints = 2;      // times as much, where the map's points lie there
+// Of the share of boxes that a birth asks for: with as many as were asked for, the next box that is
+// a little off would be the end of a thing.
+constexpr double kEnoughToStay = 0.85;
 constexpr double kLeastSlant = 0.1;  // of a unit vector, that its horizontal part says a direction
 
 // Depths of what the middle of a box shows.
@@ -183,7 +186,8 @@ std::string refusal(const Map& map, const ObjectLandmark& landmark, const Object
   if (fit.views < options.min_views) return "too few views";
   if (!fit.usable) return "no fit";
   if (fit.span < options.min_span_deg * kRadians) return "too little parallax";
-  if (fit.agreeing < options.min_agreeing * fit.views) return "boxes disagree";
+  const double agreeing = (landmark.born ? kEnoughToStay : 1) * options.min_agreeing;
+  if (fit.agreeing < agreeing * fit.views) return "boxes disagree";
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> place(fit.covariance.topLeftCorner<3, 3>());
   double distance = 0;
   const SE3 T_rw = map.keyframes()[landmark.reference].T_wc.inverse();

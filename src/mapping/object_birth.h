@@ -12,7 +12,7 @@ namespace cairn {
 struct ObjectBirthOptions {
   int min_views = 4;
   double min_span_deg = 4;    ///< between directions from which boxes show it that agree
-  double min_agreeing = 0.6;  ///< share of the views that the fit explains
+  double min_agreeing = 0.6;  ///< share of the views that the fit explains, to be born
   /// Of the centre, as a share of its distance from the cameras; twice as much where points lie.
   double max_sigma_place = 0.15;
   double max_sigma_size = 0.5;  ///< of the logarithm of its size
@@ -35,7 +35,8 @@ struct BoxFit {
 /// which things of its class may be.
 BoxFit fit_to_boxes(const Map& map, const ObjectLandmark& landmark);
 
-/// Why a fit is no object; empty if it is one.
+/// Why a fit is no object; empty if it is one. What was born may have a few more boxes that
+/// disagree.
 std::string refusal(const Map& map, const ObjectLandmark& landmark, const ObjectFit& fit,
                     const ObjectBirthOptions& options);
 

@@ -28,11 +28,6 @@ std::vector<Surface> surfaces(const Map& map) {
   return result;
 }
 
-// Of how much an ellipsoid reaches along a direction from its centre.
-double reach(const Ellipsoid& ellipsoid, const Eigen::Vector3d& n) {
-  return ellipsoid.semi_axes.cwiseProduct(ellipsoid.T.matrix3().transpose() * n).norm();
-}
-
 bool over(const Surface& surface, const Eigen::Vector3d& x) {
   const Eigen::Vector3d middle = middle_of(surface.outline), n = surface.plane.normal();
   const Eigen::Vector3d p = middle + (x - middle) / kReach;
@@ -56,9 +51,9 @@ void find_supports(Map& map, double max_gap, double most_held) {
     const Ellipsoid ellipsoid = map.object_in_world(id);
     double least = std::numeric_limits<double>::infinity();
     for (const Surface& surface : all) {
-      const Eigen::Vector3d n = surface.plane.normal();
       const double height = surface.plane.signed_distance(ellipsoid.centre());
-      const double gap = std::abs(height - reach(ellipsoid, n)) / map.units_a_true_metre();
+      const double gap =
+          std::abs(height - ellipsoid.reach(surface.plane.normal())) / map.units_a_true_metre();
       const double most = surface.id == before ? most_held : max_gap;
       if (height <= 0 || gap > most || gap >= least || !over(surface, ellipsoid.centre())) continue;
       least = gap;

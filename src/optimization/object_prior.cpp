@@ -51,10 +51,10 @@ double ground_residual(const ObjectPrior& prior, const Ellipsoid& e,
                        Eigen::Matrix<double, 1, 9>* by_step) {
   if (by_step) by_step->setZero();
   if (!prior.ground) return 0;
-  const Vector3d a = e.T.rotation().conjugate() * prior.ground->normal();
-  const Vector3d s2a = e.semi_axes.cwiseAbs2().cwiseProduct(a);
-  const double reach = e.semi_axes.cwiseProduct(a).norm();
+  const double reach = e.reach(prior.ground->normal());
   if (by_step) {
+    const Vector3d a = e.T.rotation().conjugate() * prior.ground->normal();
+    const Vector3d s2a = e.semi_axes.cwiseAbs2().cwiseProduct(a);
     *by_step << a.transpose(), -s2a.cross(a).transpose() / reach,
         -s2a.cwiseProduct(a).transpose() / reach;
     *by_step /= prior.sigma_ground;

@@ -80,5 +80,20 @@ TEST(Ellipsoid, ContainsWhatIsWithinItsAxes) {
   EXPECT_NEAR(e.volume(), 8 * M_PI, 1e-12);
 }
 
+TEST(Ellipsoid, ReachesAsFarAsTheFarthestPointOfItsSurface) {
+  testing::Random random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Ellipsoid e = random_ellipsoid(random, 20);
+    const Vector3d n = random.direction();
+    double farthest = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const Vector3d on_surface = e.T * e.semi_axes.cwiseProduct(random.direction());
+      farthest = std::max(farthest, n.dot(on_surface - e.centre()));
+    }
+    EXPECT_LE(farthest, e.reach(n) * (1 + 1e-12));
+    EXPECT_GT(farthest, 0.99 * e.reach(n));
+  }
+}
+
 }  // namespace
 }  // namespace cairn

@@ -113,6 +113,22 @@ TEST(Refusal, BelievesAnUnsurePlaceWhereTheMapsPointsLie) {
   EXPECT_EQ(refusal_of(film, thing, 0.5), "place unsure");  // that could as well be chance
 }
 
+TEST(Refusal, ForgivesWhatWasBornAFewMoreBoxes) {
+  Film film(lying({0.1, 0.04, 0.05}), "anvil", 40);
+  ObjectLandmark& landmark = film.map.objects()[testing::objects_of(film.map)[0]];
+  ObjectFit fit = film.fit().fit;
+  ASSERT_EQ(refusal(film.map, landmark, fit, {}), "");
+  const auto with = [&](bool born, double share) {
+    landmark.born = born;
+    fit.views = 100, fit.agreeing = int(100 * share);
+    return refusal(film.map, landmark, fit, {});
+  };
+  EXPECT_EQ(with(false, 0.61), "");
+  EXPECT_EQ(with(false, 0.58), "boxes disagree");
+  EXPECT_EQ(with(true, 0.58), "");
+  EXPECT_EQ(with(true, 0.48), "boxes disagree");
+}
+
 TEST(FindUp, IsTheDirectionThatNoCameraIsRolledAbout) {
   const auto up = find_up(map_of({}, around(12, 60)));
   ASSERT_TRUE(up);
