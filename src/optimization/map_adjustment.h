@@ -18,6 +18,7 @@ struct AdjustmentOptions {
   int full_iterations = 40;
   int full_threads = 1;  ///< with more, sums come out in an order that changes from run to run
   bool estimate_readout = true;  ///< how long a rolling shutter takes to read a picture
+  bool weigh_landmarks = true;   ///< by how exactly each is seen, in the full adjustment
   PlaneFactorOptions planes;
   ObjectFactorOptions objects;
 };

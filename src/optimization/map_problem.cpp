@@ -56,7 +56,7 @@ MapProblem::MapProblem(Map& map, std::vector<KeyframeId> free, std::vector<Keyfr
       depths_(map, options.planes.predicted_depth),
       planes_(map, options.planes),
       objects_(map, options.objects),
-      cauchy_(width) {
+      losses_(width) {
   free_count_ = keyframes_.size();
   keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
   for (std::size_t i = 0; i < keyframes_.size(); ++i) {
@@ -64,6 +64,7 @@ MapProblem::MapProblem(Map& map, std::vector<KeyframeId> free, std::vector<Keyfr
     if (slot >= index_of_slot_.size()) index_of_slot_.resize(slot + 1, -1);
     index_of_slot_[slot] = static_cast<int>(i);
   }
+  if (full && options.weigh_landmarks) losses_.weigh_landmarks(map);
   build();
 }
 
@@ -182,18 +183,19 @@ void MapProblem::build() {
     const Frame& frame = *map_.keyframes()[keyframes_[edge.keyframe]].frame;
     const Pinhole& pinhole = map_.view().pinhole();
     const double sigma = map_.view().core(frame.octave(edge.keypoint), edge.aligned);
+    ceres::LossFunction* loss = losses_.of(points_[edge.point], edge.aligned);
     double* pose = &pose_values_[std::size_t{7} * edge.keyframe];
     double* point = &point_values_[std::size_t{3} * edge.point];
     if (estimate_readout_ && frame.rolls()) {
       rolling_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma, frame.readout,
                                     drift(edge));
-      problem_->AddResidualBlock(&rolling_factors_.back(), &cauchy_, pose, point, &readout_);
+      problem_->AddResidualBlock(&rolling_factors_.back(), loss, pose, point, &readout_);
     } else if (refine_lens_) {
       lens_factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
-      problem_->AddResidualBlock(&lens_factors_.back(), &cauchy_, pose, point, lens_.values.data());
+      problem_->AddResidualBlock(&lens_factors_.back(), loss, pose, point, lens_.values.data());
     } else {
       factors_.emplace_back(pinhole, frame.pixel(edge.keypoint), sigma);
-      problem_->AddResidualBlock(&factors_.back(), &cauchy_, pose, point);
+      problem_->AddResidualBlock(&factors_.back(), loss, pose, point);
     }
   }
   if (depths_.wanted()) add_depths();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ceres/loss_function.h>
 #include <ceres/ordered_groups.h>
 #include <ceres/problem.h>
 
@@ -21,6 +20,7 @@
 #include "cairn/optimization/object_blocks.h"
 #include "cairn/optimization/odometry_blocks.h"
 #include "cairn/optimization/plane_blocks.h"
+#include "cairn/optimization/point_losses.h"
 #include "cairn/optimization/pose_blocks.h"
 #include "cairn/optimization/se3_manifold.h"
 
@@ -84,7 +84,7 @@ class MapProblem {
   DepthBlocks depths_;
   PlaneBlocks planes_;
   ObjectBlocks objects_;
-  ceres::CauchyLoss cauchy_;
+  PointLosses losses_;
   SE3Manifold manifold_;
   std::unique_ptr<ceres::Problem> problem_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
