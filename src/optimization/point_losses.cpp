@@ -38,6 +38,7 @@ void PointLosses::weigh_landmarks(const Map& map) {
   map.objects().for_each([&](ObjectId, const ObjectLandmark& object) {
     if (object.born) add_group(object.points);
   });
+  if (groups == 1) return;  // nothing to weigh against the others
   std::vector<std::vector<double>> misfits(groups);
   map.points().for_each([&](PointId id, const MapPoint& point) {
     if (id.slot >= group_of_slot_.size()) group_of_slot_.resize(id.slot + 1, 0);
