@@ -171,6 +171,14 @@ std::vector<Eigen::Vector3d> Map::measured_points_at(
   return points;
 }
 
+Eigen::Vector2d Map::reprojection_error(KeyframeId keyframe, std::uint32_t keypoint,
+                                        const Eigen::Vector3d& position) const {
+  const Keyframe& seeing = keyframes_[keyframe];
+  const Eigen::Vector3d X = seeing.T_wc.inverse() * position;
+  if (X.z() <= 0) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  return lens_.project(view_.pinhole(), X) - seeing.frame->pixel(keypoint);
+}
+
 int Map::keypoint_of(PointId point, KeyframeId keyframe) const {
   const Observation* const observation = points_[point].seen_from(keyframe);
   return observation != nullptr ? static_cast<int>(observation->keypoint) : -1;

@@ -159,6 +159,10 @@ class Map {
   bool is_corner(const Observation& o) const {
     return o.keypoint < keyframes_[o.keyframe].frame->corners();
   }
+  /// From the keypoint that a keyframe has of a point to where it would see it at a position in the
+  /// world, pixels; infinite where that is not before the camera.
+  Eigen::Vector2d reprojection_error(KeyframeId keyframe, std::uint32_t keypoint,
+                                     const Eigen::Vector3d& position) const;
   /// The keypoint by which a keyframe sees a point, or -1.
   int keypoint_of(PointId point, KeyframeId keyframe) const;
   /// Recomputes normal and base distance, or the descriptor, from the observations.

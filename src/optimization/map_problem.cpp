@@ -139,14 +139,10 @@ int MapProblem::erase_outliers(double gate) {
     const KeyframeId keyframe = keyframes_[edge.keyframe];
     const PointId point = points_[edge.point];
     if (!map_.points().contains(point) || map_.keypoint_of(point, keyframe) < 0) continue;
-    const Keyframe& k = map_.keyframes()[keyframe];
-    const Eigen::Vector3d X = k.T_wc.inverse() * map_.points()[point].position;
-    const double sigma = map_.view().sigma(k.frame->octave(edge.keypoint), edge.aligned);
-    const bool agrees =
-        X.z() > 0 &&
-        ((map_.lens().project(map_.view().pinhole(), X) - k.frame->pixel(edge.keypoint)) / sigma)
-                .squaredNorm() < gate;
-    if (agrees) continue;
+    const int octave = map_.keyframes()[keyframe].frame->octave(edge.keypoint);
+    const Eigen::Vector2d off =
+        map_.reprojection_error(keyframe, edge.keypoint, map_.points()[point].position);
+    if ((off / map_.view().sigma(octave, edge.aligned)).squaredNorm() < gate) continue;
     map_.erase_observation(point, keyframe);
     ++erased;
   }

@@ -13,11 +13,9 @@ constexpr double kLeast = 0.001;      // σ; what fits without error is not infi
 
 // From where a keyframe saw a point to where the map has it, in σ.
 double misfit(const Map& map, const MapPoint& point, const Observation& o) {
-  const Keyframe& keyframe = map.keyframes()[o.keyframe];
-  const Frame& frame = *keyframe.frame;
-  const Eigen::Vector3d X = keyframe.T_wc.inverse() * point.position;
-  const Eigen::Vector2d off = map.lens().project(map.view().pinhole(), X) - frame.pixel(o.keypoint);
-  return off.norm() / map.view().sigma(frame.octave(o.keypoint), true);
+  const int octave = map.keyframes()[o.keyframe].frame->octave(o.keypoint);
+  return map.reprojection_error(o.keyframe, o.keypoint, point.position).norm() /
+         map.view().sigma(octave, true);
 }
 
 }  // namespace
@@ -27,6 +25,7 @@ void PointLosses::weigh_landmarks(const Map& map) {
   std::uint16_t groups = 1;  // the first: of none
   const auto add_group = [&](const std::vector<PointId>& points) {
     for (const PointId p : points) {
+      if (!map.points().contains(p)) continue;
       if (p.slot >= group_of_slot_.size()) group_of_slot_.resize(p.slot + 1, 0);
       group_of_slot_[p.slot] = groups;
     }

@@ -46,8 +46,8 @@ OptionTable::OptionTable(Options& o) {
   add("mapping.window", o.mapping.adjustment.window, "keyframes", {3, 200}, "that a local adjustment moves");
   add("mapping.fixed", o.mapping.adjustment.fixed, "keyframes", {2, 500}, "around them that hold it, at most");
   add("mapping.local_iterations", o.mapping.adjustment.local_iterations, "steps", {1, 100}, "of a local adjustment, at most");
-  add("mapping.weigh_landmarks", o.mapping.adjustment.weigh_landmarks, "what lies on planes and things, by how exactly each is seen, in the full adjustment");
   add("mapping.full_iterations", o.mapping.adjustment.full_iterations, "steps", {1, 500}, "of the full adjustment, at most");
+  add("mapping.weigh_landmarks", o.mapping.adjustment.weigh_landmarks, "what lies on planes and things, by how exactly each is seen, in the full adjustment");
 
   add("perception.every_frame", o.look_at_every_frame, "look at every picture, not only at those of keyframes; tracking waits for the detector");
 

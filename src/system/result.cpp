@@ -97,10 +97,7 @@ ReprojectionError reprojection_error(const Map& map) {
   std::vector<double> errors;
   map.points().for_each([&](PointId, const MapPoint& point) {
     for (const Observation& o : point.observations) {
-      const Keyframe& keyframe = map.keyframes()[o.keyframe];
-      const Eigen::Vector3d X = keyframe.T_wc.inverse() * point.position;
-      const Eigen::Vector2d at = map.lens().project(map.view().pinhole(), X);
-      errors.push_back((at - keyframe.frame->pixel(o.keypoint)).norm());
+      errors.push_back(map.reprojection_error(o.keyframe, o.keypoint, point.position).norm());
     }
   });
   ReprojectionError result;

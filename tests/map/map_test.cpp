@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "map/flat_map.h"
 #include "map/links.h"
 #include "map/plain_frame.h"
 #include "map/point_world.h"
@@ -165,6 +166,20 @@ TEST(Map, GeometryOfAPointIsTheMeanOfItsViews) {
     }
     EXPECT_GE(p.base_distance, closest * 0.999) << id.slot;
     EXPECT_LE(p.base_distance, farthest * 1.001) << id.slot;
+  });
+}
+
+TEST(Map, AReprojectionErrorLeadsFromTheKeypointToThePointAndIsInfiniteBehindTheCamera) {
+  const Map map =
+      testing::map_of(testing::grid_on(testing::wall_corners(), 5), testing::few_poses(4));
+  map.points().for_each([&](PointId, const MapPoint& p) {
+    const Observation& o = p.observations.front();
+    const Keyframe& k = map.keyframes()[o.keyframe];
+    EXPECT_LT(map.reprojection_error(o.keyframe, o.keypoint, p.position).norm(), 1e-3);
+    const Eigen::Vector3d right = k.T_wc.rotation() * Eigen::Vector3d::UnitX();
+    EXPECT_GT(map.reprojection_error(o.keyframe, o.keypoint, p.position + 0.1 * right).x(), 0.1);
+    const Eigen::Vector3d behind = 2 * k.T_wc.translation() - p.position;
+    EXPECT_EQ(map.reprojection_error(o.keyframe, o.keypoint, behind).norm(), INFINITY);
   });
 }
 

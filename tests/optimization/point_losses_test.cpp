@@ -93,5 +93,17 @@ TEST(PointLosses, SayNothingOfCornersAndOfWhatFewSightingsShow) {
   EXPECT_EQ(weight(losses.of(ids.front(), true)), 1);
 }
 
+TEST(PointLosses, SayNothingOfAPointThatHasTakenTheSlotOfOneOfAThing) {
+  Map map = map_with(0.4, 0.2, 0.4);
+  const PointId gone = points_of(map)[kOnWall];
+  map.erase_point(gone);
+  const PointId other = map.add_point({0, 0, 3});
+  ASSERT_EQ(other.slot, gone.slot);
+  PointLosses losses(0.5);
+  losses.weigh_landmarks(map);
+  EXPECT_NEAR(weight(losses.of(points_of(map)[kOnWall + 1], true)), 4, 0.8);
+  EXPECT_EQ(weight(losses.of(other, true)), 1);
+}
+
 }  // namespace
 }  // namespace cairn
