@@ -201,7 +201,7 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   remove_unconfirmed_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   const double gap = options_.objects.max_gap;
-  if (options_.objects.supports) find_supports(map_, gap, 2 * gap);
+  if (options_.objects.supports) find_supports(map_, map_.units_a_true_metre(), gap, 2 * gap);
   OdometryBlocks path(map_);  // one adjustment after the other must not lead away from it
   AdjustmentSummary summary = adjust_fully(map_, options_.adjustment, stop, &path);
   if (options_.adjustment.estimate_readout) find_motions(map_);
@@ -224,8 +224,10 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();
-  // At last nothing stands on what it does not touch.
-  if (options_.objects.supports) find_supports(map_, gap, gap);
+  // At last nothing stands on what it does not touch, by the metre of what is written.
+  if (const ScaleEstimate metres = scale(); options_.objects.supports && metres.known()) {
+    find_supports(map_, 1 / metres.value, gap, gap);
+  }
   look_around(map_.newest());
   return summary;
 }

@@ -281,7 +281,9 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
   for (const ObjectId object : known) join_guesses(map, object, options.birth, refusals);
   fuse_objects(map);
   let_die(map, id, options);
-  if (options.supports) find_supports(map, options.max_gap, 2 * options.max_gap);
+  if (options.supports) {
+    find_supports(map, map.units_a_true_metre(), options.max_gap, 2 * options.max_gap);
+  }
 }
 
 void settle_objects(Map& map, const ObjectMappingOptions& options) {

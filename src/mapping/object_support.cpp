@@ -42,8 +42,8 @@ bool over(const Surface& surface, const Eigen::Vector3d& x) {
 
 }  // namespace
 
-void find_supports(Map& map, double max_gap, double most_held) {
-  if (!(map.units_a_true_metre() > 0)) return;
+void find_supports(Map& map, double metre, double max_gap, double most_held) {
+  if (!(metre > 0)) return;
   const std::vector<Surface> all = surfaces(map);
   map.objects().for_each([&](ObjectId id, ObjectLandmark& landmark) {
     const PlaneId before = std::exchange(landmark.support, PlaneId{});
@@ -52,8 +52,7 @@ void find_supports(Map& map, double max_gap, double most_held) {
     double least = std::numeric_limits<double>::infinity();
     for (const Surface& surface : all) {
       const double height = surface.plane.signed_distance(ellipsoid.centre());
-      const double gap =
-          std::abs(height - ellipsoid.reach(surface.plane.normal())) / map.units_a_true_metre();
+      const double gap = std::abs(height - ellipsoid.reach(surface.plane.normal())) / metre;
       const double most = surface.id == before ? most_held : max_gap;
       if (height <= 0 || gap > most || gap >= least || !over(surface, ellipsoid.centre())) continue;
       least = gap;
