@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kTie = 0.9;        // of one point: what overlap may add where as many points agree
 constexpr double kSamePlace = 0.7;  // IoU of a box and a thing of any class that are one
+constexpr double kInside = 0.8;     // of a box that the border cuts, that shows a part of a thing
 
 // An object in front of the camera, as the camera sees it.
 struct Candidate {
   ObjectId id;
   std::string class_name;
+  bool born;
   Box2 box;                             // its projection, inside of the picture
   Eigen::Vector2d centre;               // projected
   std::vector<Eigen::Vector2d> points;  // projected
@@ -34,6 +36,7 @@ std::vector<Candidate> candidates_of(const Map& map, const Keyframe& keyframe) {
     if (!box) return;
     Candidate c{id,
                 landmark.class_name(),
+                landmark.born,
                 box->clipped(map.view().borders()),
                 pinhole.project(in_camera.centre()),
                 {}};
@@ -62,6 +65,13 @@ bool centre_agrees(const Candidate& candidate, const SeenObject& seen, double mo
   const double reach = most * std::hypot(seen.box.width(), seen.box.height()) / 2;
   const bool beside = seen.cut[0] || seen.cut[2], above = seen.cut[1] || seen.cut[3];
   return (beside || std::abs(off.x()) <= reach) && (above || std::abs(off.y()) <= reach);
+}
+
+// Of what goes on beyond the border, detectors box a part now and then.
+bool shows_a_part(const SeenObject& seen, const Candidate& candidate) {
+  const bool cut = std::any_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
+  const Box2 shared = seen.box.clipped(candidate.box);
+  return cut && candidate.born && shared.valid() && shared.area() >= kInside * seen.box.area();
 }
 
 // Pairs that share what `worth` says (0: not a pair), as many and as much as can be.
@@ -125,7 +135,7 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
       const bool kin = may_be_one_class(seen[i].class_name, c.class_name);
       const double overlap = intersection_over_union(c.box, seen[i].box);
       if (overlap >= (kin ? options.min_overlap : kSamePlace) ||
-          (kin && points_inside(c, seen[i].box) >= options.th_low)) {
+          (kin && (points_inside(c, seen[i].box) >= options.th_low || shows_a_part(seen[i], c)))) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }

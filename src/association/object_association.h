@@ -26,7 +26,8 @@ struct ObjectDecision {
 /// them; equal costs are told apart by overlap. A pair is accepted from th_high on, where classes
 /// are of one family and box and projected centre agree. What is left is assigned by overlap alone,
 /// which is how things without texture are known again, and where a box and a thing of any class
-/// fill the same place they are one. What is still left is new below th_low, and unclear above.
+/// fill the same place they are one. What is still left is new below th_low, and unclear above, or
+/// where the border cuts it inside of a thing of its family that is known.
 std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyframe,
                                               std::span<const SeenObject> seen,
                                               const ObjectAssociationOptions& options);

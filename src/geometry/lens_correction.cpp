@@ -3,6 +3,11 @@
 #include <cmath>
 
 namespace cairn {
+namespace {
+
+constexpr int kSteps = 4;  // of a fixed point: corrections are small
+
+}  // namespace
 
 Eigen::Vector2d LensCorrection::project(const Pinhole& pinhole, const Eigen::Vector3d& X,
                                         Eigen::Matrix<double, 2, 3>* by_point,
@@ -23,6 +28,12 @@ Eigen::Vector2d LensCorrection::project(const Pinhole& pinhole, const Eigen::Vec
         fy * y * d, fy * y * r2, fy * y * r2 * r2, 0, 1;
   }
   return {fx * x * d + pinhole.cx + dx, fy * y * d + pinhole.cy + dy};
+}
+
+Eigen::Vector2d LensCorrection::ideal(const Pinhole& pinhole, const Eigen::Vector2d& pixel) const {
+  Eigen::Vector2d at = pixel;
+  for (int i = 0; i < kSteps; ++i) at += pixel - project(pinhole, pinhole.unproject(at));
+  return at;
 }
 
 }  // namespace cairn

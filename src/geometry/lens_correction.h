@@ -19,6 +19,9 @@ struct LensCorrection {
   Eigen::Vector2d project(const Pinhole& pinhole, const Eigen::Vector3d& X,
                           Eigen::Matrix<double, 2, 3>* by_point = nullptr,
                           Eigen::Matrix<double, 2, kSize>* by_values = nullptr) const;
+  /// Where the ideal pinhole has what is seen at this pixel; to 0.01 px where the two are less than
+  /// 20 px apart.
+  Eigen::Vector2d ideal(const Pinhole& pinhole, const Eigen::Vector2d& pixel) const;
 };
 
 }  // namespace cairn

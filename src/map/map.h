@@ -196,6 +196,9 @@ class Map {
   /// `from` becomes part of `into`, whose ellipsoid stays.
   void merge_objects(ObjectId from, ObjectId into);
   void erase_object(ObjectId id);
+  /// Moves the boxes of all things from where the camera had them, if its calibration was right, to
+  /// where an ideal one has them by lens(). Once, when that is known.
+  void unbend_boxes();
   /// In the world as it is now.
   Ellipsoid object_in_world(ObjectId id) const;
   /// The camera of an observation's picture to the world.

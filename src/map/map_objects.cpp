@@ -25,8 +25,7 @@ void Map::observe_object(ObjectId id, KeyframeId keyframe, const SeenObject& see
   landmark.last_time = std::max(landmark.last_time, k.timestamp());
   landmark.missed = std::max(landmark.missed - 1, 0);
   if (landmark.seen_by(keyframe)) return;
-  landmark.observations.push_back(
-      {keyframe, seen.box, seen.cut, seen.sigma, seen.score, k.timestamp()});
+  landmark.observe({keyframe, seen.box, seen.cut, seen.sigma, seen.score, k.timestamp()});
 }
 
 void Map::merge_objects(ObjectId from, ObjectId into) {
@@ -49,6 +48,18 @@ void Map::set_object_in_world(ObjectId id, const Ellipsoid& ellipsoid) {
 
 SE3 Map::camera_of(const ObjectObservation& o) const {
   return keyframes_[o.keyframe].T_wc * o.T_kc;
+}
+
+// The lens bends little along an edge, and a thing touches an edge near its middle.
+void Map::unbend_boxes() {
+  const Pinhole& pinhole = view_.pinhole();
+  objects_.for_each([&](ObjectId, ObjectLandmark& landmark) {
+    for (ObjectObservation& o : landmark.observations) {
+      const double x = o.box.centre().x(), y = o.box.centre().y();
+      o.box = {lens_.ideal(pinhole, {o.box.x0, y}).x(), lens_.ideal(pinhole, {x, o.box.y0}).y(),
+               lens_.ideal(pinhole, {o.box.x1, y}).x(), lens_.ideal(pinhole, {x, o.box.y1}).y()};
+    }
+  });
 }
 
 // What the keyframe saw is still true once it is gone: its boxes, and what was relative to it, hang

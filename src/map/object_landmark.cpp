@@ -10,6 +10,23 @@ bool ObjectLandmark::seen_by(KeyframeId keyframe) const {
   });
 }
 
+void ObjectLandmark::observe(const ObjectObservation& seen) {
+  const auto later = [](const ObjectObservation& a, const ObjectObservation& b) {
+    return a.time < b.time;
+  };
+  observations.insert(std::upper_bound(observations.begin(), observations.end(), seen, later),
+                      seen);
+  if (observations.size() <= kMostObservations) return;
+  std::size_t least = 1;  // the oldest and the newest stay
+  const auto gap = [&](std::size_t i) {
+    return observations[i + 1].time - observations[i - 1].time;
+  };
+  for (std::size_t i = 2; i + 1 < observations.size(); ++i) {
+    if (gap(i) < gap(least)) least = i;
+  }
+  observations.erase(observations.begin() + static_cast<std::ptrdiff_t>(least));
+}
+
 void ObjectLandmark::take_sightings(const ObjectLandmark& other) {
   for (const auto& [name, score] : other.votes) votes[name] += score;
   for (const auto& [thing, times] : other.things) things[thing] += times;
@@ -18,7 +35,7 @@ void ObjectLandmark::take_sightings(const ObjectLandmark& other) {
   for (const ObjectObservation& o : other.observations) {
     const auto same = [&](const ObjectObservation& own) { return own.time == o.time; };
     if (std::none_of(observations.begin(), observations.end(), same)) {
-      observations.push_back(o);
+      observe(o);
       ++sightings;
     }
   }

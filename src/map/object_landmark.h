@@ -49,7 +49,7 @@ struct ObjectLandmark {
   Ellipsoid ellipsoid;                               ///< in the reference's frame, map units
   std::map<std::string, double> votes = {};          ///< for each class: sum of scores
   std::map<int, int> things = {};                    ///< how often it was which in truth
-  std::vector<ObjectObservation> observations = {};  ///< one a picture, in order of arrival
+  std::vector<ObjectObservation> observations = {};  ///< one a picture, the oldest first
   std::vector<PointId> points = {};                  ///< of the map, inside of it
   std::uint32_t sightings = 0;                       ///< pictures that showed it, ever
   std::uint32_t last_seen = 0;  ///< sequence number of the last of them to come
@@ -65,7 +65,13 @@ struct ObjectLandmark {
   double independent = 1;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, reference's frame
 
+  /// Observations that are kept: more say the same again.
+  static constexpr std::size_t kMostObservations = 60;
+
   bool seen_by(KeyframeId keyframe) const;  ///< by its own picture
+  /// Takes one more, and lets that one go, of too many, without which those left are most apart in
+  /// time: what pictures err that follow each other is alike, and they show one side of the thing.
+  void observe(const ObjectObservation& seen);
   /// What `other` has seen is of this one, too; of one picture's two boxes its own stays.
   void take_sightings(const ObjectLandmark& other);
   /// The class that has most votes; of equal ones the first by name.

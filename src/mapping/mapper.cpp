@@ -218,13 +218,16 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   if (options_.refine_lens) {
     const AdjustmentSummary lens = refine_lens(map_, options_.adjustment, stop, &path);
     spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());
-    if (lens.usable) summary = lens;
+    if (lens.usable) {
+      summary = lens;
+      map_.unbend_boxes();
+    }
   }
   fuse_planes(map_, options_.planes.association);  // what the adjustments have brought together
   settle_planes(map_, options_.planes);
   settle_objects(map_, options_.objects);
   measure_scale_anew();
-  // At last nothing stands on what it does not touch, by the metre of what is written.
+  // At last nothing stands on what it does not touch, by the metre of depth and sizes together.
   if (const ScaleEstimate metres = scale(); options_.objects.supports && metres.known()) {
     find_supports(map_, 1 / metres.value, gap, gap);
   }

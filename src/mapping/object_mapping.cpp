@@ -268,10 +268,6 @@ void map_objects(Map& map, KeyframeId id, const KeyframePerception& seen,
     }
     ObjectLandmark& landmark = map.objects()[decisions[i].object];
     map.observe_object(decisions[i].object, id, thing);
-    if (std::ssize(landmark.observations) > kMostViews) {  // every other one of the older half
-      landmark.observations.erase(landmark.observations.begin() + 1 +
-                                  2 * landmark.sightings % (kMostViews / 2));
-    }
     update_evidence(landmark);
     if (!landmark.born) bear(map, landmark, options.birth, refusals);
     known.push_back(decisions[i].object);

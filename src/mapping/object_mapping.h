@@ -10,9 +10,6 @@
 
 namespace cairn {
 
-/// Observations of an object that are kept: more say the same again.
-inline constexpr int kMostViews = 60;
-
 struct ObjectMappingOptions {
   bool supports = false;  ///< what stands on which plane is found and bound
   int min_sightings = 5;  ///< pictures that agree with an object of the final map

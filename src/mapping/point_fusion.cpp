@@ -33,14 +33,9 @@ int find_keypoint(const View& view, const Frame& frame, const MapPoint& point, c
 std::vector<Observation> astray(const Map& map, PointId id, const Eigen::Vector3d& position) {
   std::vector<Observation> result;
   for (const Observation& o : map.points()[id].observations) {
-    const Keyframe& keyframe = map.keyframes()[o.keyframe];
-    const Eigen::Vector3d X = keyframe.T_wc.inverse() * position;
-    const double sigma = map.view().sigma(keyframe.frame->octave(o.keypoint));
-    const bool agrees =
-        X.z() > 0 &&
-        (map.view().pinhole().project(X) - keyframe.frame->pixel(o.keypoint)).squaredNorm() <
-            kAstray * sigma * sigma;
-    if (!agrees) result.push_back(o);
+    const double sigma = map.view().sigma(map.keyframes()[o.keyframe].frame->octave(o.keypoint));
+    const Eigen::Vector2d error = map.reprojection_error(o.keyframe, o.keypoint, position);
+    if (!(error.squaredNorm() < kAstray * sigma * sigma)) result.push_back(o);
   }
   return result;
 }

@@ -78,7 +78,7 @@ OptionTable::OptionTable(Options& o) {
   add("objects.min_agreeing", objects.birth.min_agreeing, "", {0, 1}, "of its boxes, that its ellipsoid explains");
   add("objects.max_sigma_place", objects.birth.max_sigma_place, "", {0.005, 1}, "of its centre, as a share of its distance");
   add("objects.max_sigma_size", objects.birth.max_sigma_size, "", {0.01, 5}, "of the logarithm of its size");
-  add("objects.min_sightings", objects.min_sightings, "pictures", {1, kMostViews}, "that agree with an object of the final map");
+  add("objects.min_sightings", objects.min_sightings, "pictures", {1, double(ObjectLandmark::kMostObservations)}, "that agree with an object of the final map");
   add("objects.max_missed", objects.max_missed, "pictures", {1, 1000}, "that should have shown an object and did not, at most");
   add("objects.probation", objects.probation, "s", {0.1, 1000}, "after its last sighting that a guess of an object is kept");
   add("objects.max_gap", objects.max_gap, "metres", {0.005, 1}, "between an object and the plane that it stands on");

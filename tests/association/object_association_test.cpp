@@ -93,6 +93,17 @@ TEST_F(ObjectAssociation, DecidesNothingBetweenTheThresholds) {
   EXPECT_EQ(decisions[0].kind, Kind::kUnclear);
 }
 
+TEST_F(ObjectAssociation, TakesAPartOfAThingAtTheBorderForNoSecondOne) {
+  forget_points();
+  SeenObject part = seen_thing(map, looking, right);
+  part.box.x0 += 0.8 * part.box.width();
+  EXPECT_EQ(decide({part})[0].kind, Kind::kNew) << "a small thing before a large one";
+  part.cut[2] = true;
+  EXPECT_EQ(decide({part})[0].kind, Kind::kNew) << "of what is only guessed nothing is a part";
+  map.objects()[known[1]].born = true;
+  EXPECT_EQ(decide({part})[0].kind, Kind::kUnclear);
+}
+
 TEST_F(ObjectAssociation, OfNothingIsNothing) {
   EXPECT_THAT(decide({}), ::testing::IsEmpty());
   const Map empty = testing::map_of(testing::points_on(left, 9), around(2, 10));

@@ -48,6 +48,29 @@ TEST_F(MapObjects, KeepOneBoxAKeyframe) {
   EXPECT_EQ(map.objects()[cup].sightings, 1u);
 }
 
+// As many as are kept, spread over all the time that the thing was seen.
+TEST(ObjectLandmark, KeepsWhatIsMostApartInTime) {
+  constexpr std::size_t kMost = ObjectLandmark::kMostObservations;
+  constexpr double kMean = 99.9 / double(kMost - 1);
+  ObjectLandmark landmark;
+  for (int i = 0; i < 1000; ++i) landmark.observe({.keyframe = {}, .box = {}, .time = 0.1 * i});
+  ASSERT_THAT(landmark.observations, SizeIs(kMost));
+  EXPECT_EQ(landmark.observations.front().time, 0);
+  EXPECT_DOUBLE_EQ(landmark.observations.back().time, 99.9);
+  for (std::size_t i = 1; i < kMost; ++i) {
+    const double gap = landmark.observations[i].time - landmark.observations[i - 1].time;
+    EXPECT_GT(gap, kMean / 3);
+    EXPECT_LT(gap, kMean * 2);
+  }
+}
+
+TEST(ObjectLandmark, HasTheOldestViewFirst) {
+  ObjectLandmark landmark;
+  for (const double t : {2., 1., 3.}) landmark.observe({.keyframe = {}, .box = {}, .time = t});
+  EXPECT_EQ(landmark.observations[0].time, 1);
+  EXPECT_EQ(landmark.observations[2].time, 3);
+}
+
 TEST_F(MapObjects, StayWhereTheyAreWhenTheirKeyframeGoes) {
   map.observe_object(cup, keyframes[1], seen_thing(map, keyframes[1], a_cup()));
   const SE3 camera = map.keyframes()[keyframes[0]].T_wc;
@@ -60,6 +83,21 @@ TEST_F(MapObjects, StayWhereTheyAreWhenTheirKeyframeGoes) {
   EXPECT_NE(map.objects()[cup].reference, keyframes[0]);
   EXPECT_FALSE(map.objects()[cup].seen_by(keyframes[0]));
   EXPECT_TRUE(map.object_in_world(cup).centre().isApprox(a_cup().centre(), 1e-9));
+}
+
+TEST_F(MapObjects, HaveTheBoxesThatACameraWithoutTheLensWouldHave) {
+  const Pinhole pinhole = map.view().pinhole();
+  map.lens().values = {0.01, -0.05, 0.02, 2, -1};
+  ObjectObservation& o = map.objects()[cup].observations[0];
+  const Box2 seen = o.box;
+  map.unbend_boxes();
+  const Eigen::Vector2d middle = seen.centre();
+  const auto bent = [&](double x, double y) {
+    return map.lens().project(pinhole, pinhole.unproject({x, y}));
+  };
+  EXPECT_NEAR(bent(o.box.x0, middle.y()).x(), seen.x0, 0.5);
+  EXPECT_NEAR(bent(middle.x(), o.box.y1).y(), seen.y1, 0.5);
+  EXPECT_GT((o.box.edges() - seen.edges()).norm(), 2);
 }
 
 TEST_F(MapObjects, TakeOverTheBoxesOfWhatTheyAreFusedWith) {

@@ -74,7 +74,7 @@ TEST(PointLosses, WeighAThingsSightingsLessWhereTheyAreLessExact) {
   EXPECT_NEAR(weight(losses.of(ids.front(), true)), 1, 0.2);
 }
 
-TEST(PointLosses, BelieveNoneNineTimesAsMuchAsOthers) {
+TEST(PointLosses, BelieveNoneMoreThanNineTimesAsMuch) {
   const Map map = map_with(0.01, 0.4, 0.4);
   PointLosses losses(0.5);
   losses.weigh_landmarks(map);
