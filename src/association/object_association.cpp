@@ -68,10 +68,10 @@ bool centre_agrees(const Candidate& candidate, const SeenObject& seen, double mo
 }
 
 // Of what goes on beyond the border, detectors box a part now and then.
-bool shows_a_part(const SeenObject& seen, const Candidate& candidate) {
+bool shows_a_part(const SeenObject& seen, const Box2& whole) {
   const bool cut = std::any_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
-  const Box2 shared = seen.box.clipped(candidate.box);
-  return cut && candidate.born && shared.valid() && shared.area() >= kInside * seen.box.area();
+  const Box2 shared = seen.box.clipped(whole);
+  return cut && shared.valid() && shared.area() >= kInside * seen.box.area();
 }
 
 // Pairs that share what `worth` says (0: not a pair), as many and as much as can be.
@@ -135,7 +135,15 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
       const bool kin = may_be_one_class(seen[i].class_name, c.class_name);
       const double overlap = intersection_over_union(c.box, seen[i].box);
       if (overlap >= (kin ? options.min_overlap : kSamePlace) ||
-          (kin && (points_inside(c, seen[i].box) >= options.th_low || shows_a_part(seen[i], c)))) {
+          (kin && points_inside(c, seen[i].box) >= options.th_low) ||
+          (kin && c.born && shows_a_part(seen[i], c.box))) {
+        decisions[i].kind = ObjectDecision::Kind::kUnclear;
+      }
+    }
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      if (decisions[k].kind == ObjectDecision::Kind::kKnown &&
+          may_be_one_class(seen[i].class_name, seen[k].class_name) &&
+          shows_a_part(seen[i], seen[k].box)) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }

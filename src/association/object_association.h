@@ -27,7 +27,7 @@ struct ObjectDecision {
 /// are of one family and box and projected centre agree. What is left is assigned by overlap alone,
 /// which is how things without texture are known again, and where a box and a thing of any class
 /// fill the same place they are one. What is still left is new below th_low, and unclear above, or
-/// where the border cuts it inside of a thing of its family that is known.
+/// where the border cuts it inside of the projection, or the box, of a known thing of its family.
 std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyframe,
                                               std::span<const SeenObject> seen,
                                               const ObjectAssociationOptions& options);

@@ -104,6 +104,16 @@ TEST_F(ObjectAssociation, TakesAPartOfAThingAtTheBorderForNoSecondOne) {
   EXPECT_EQ(decide({part})[0].kind, Kind::kUnclear);
 }
 
+TEST_F(ObjectAssociation, TakesAPartOfABoxAtTheBorderForNoSecondThing) {
+  forget_points();
+  const SeenObject whole = seen_thing(map, looking, right);
+  SeenObject part = whole;
+  part.box.x0 += 0.8 * part.box.width();
+  EXPECT_EQ(decide({part, whole})[0].kind, Kind::kNew);
+  part.cut[2] = true;
+  EXPECT_EQ(decide({part, whole})[0].kind, Kind::kUnclear);
+}
+
 TEST_F(ObjectAssociation, OfNothingIsNothing) {
   EXPECT_THAT(decide({}), ::testing::IsEmpty());
   const Map empty = testing::map_of(testing::points_on(left, 9), around(2, 10));
