@@ -140,10 +140,10 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-      if (decisions[k].kind == ObjectDecision::Kind::kKnown &&
-          may_be_one_class(seen[i].class_name, seen[k].class_name) &&
-          shows_a_part(seen[i], seen[k].box)) {
+    for (const SeenObject& other : seen) {
+      if (other.box.area() > seen[i].box.area() &&
+          may_be_one_class(seen[i].class_name, other.class_name) &&
+          shows_a_part(seen[i], other.box)) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }
