@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTie = 0.9;        // of one point: what overlap may add where as many points agree
 constexpr double kSamePlace = 0.7;  // IoU of a box and a thing of any class that are one
-constexpr double kInside = 0.8;     // of a box that the border cuts, that shows a part of a thing
+constexpr double kInside = 0.8;     // of a box that shows a part of what the border cuts
 
 // An object in front of the camera, as the camera sees it.
 struct Candidate {
@@ -67,11 +67,14 @@ bool centre_agrees(const Candidate& candidate, const SeenObject& seen, double mo
   return (beside || std::abs(off.x()) <= reach) && (above || std::abs(off.y()) <= reach);
 }
 
+bool is_cut(const SeenObject& seen) {
+  return std::any_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
+}
+
 // Of what goes on beyond the border, detectors box a part now and then.
-bool shows_a_part(const SeenObject& seen, const Box2& whole) {
-  const bool cut = std::any_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
-  const Box2 shared = seen.box.clipped(whole);
-  return cut && shared.valid() && shared.area() >= kInside * seen.box.area();
+bool is_inside(const Box2& part, const Box2& whole) {
+  const Box2 shared = part.clipped(whole);
+  return shared.valid() && shared.area() >= kInside * part.area() && part.area() < whole.area();
 }
 
 // Pairs that share what `worth` says (0: not a pair), as many and as much as can be.
@@ -136,14 +139,13 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
       const double overlap = intersection_over_union(c.box, seen[i].box);
       if (overlap >= (kin ? options.min_overlap : kSamePlace) ||
           (kin && points_inside(c, seen[i].box) >= options.th_low) ||
-          (kin && c.born && shows_a_part(seen[i], c.box))) {
+          (kin && c.born && is_cut(seen[i]) && is_inside(seen[i].box, c.box))) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }
     for (const SeenObject& other : seen) {
-      if (other.box.area() > seen[i].box.area() &&
-          may_be_one_class(seen[i].class_name, other.class_name) &&
-          shows_a_part(seen[i], other.box)) {
+      if (may_be_one_class(seen[i].class_name, other.class_name) &&
+          (is_cut(seen[i]) || is_cut(other)) && is_inside(seen[i].box, other.box)) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }

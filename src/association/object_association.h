@@ -27,8 +27,8 @@ struct ObjectDecision {
 /// are of one family and box and projected centre agree. What is left is assigned by overlap alone,
 /// which is how things without texture are known again, and where a box and a thing of any class
 /// fill the same place they are one. What is still left is new below th_low, and unclear above, or
-/// where the border cuts it inside of the projection of a known thing of its family, or of the box
-/// of any.
+/// where it is a part of what the border cuts: a cut box inside of the projection of a known thing
+/// of its family, or any inside of a cut one of its family.
 std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyframe,
                                               std::span<const SeenObject> seen,
                                               const ObjectAssociationOptions& options);

@@ -106,11 +106,11 @@ TEST_F(ObjectAssociation, TakesAPartOfAThingAtTheBorderForNoSecondOne) {
 
 TEST_F(ObjectAssociation, TakesAPartOfABoxAtTheBorderForNoSecondThing) {
   forget_points();
-  const SeenObject whole = seen_thing(map, looking, right);
+  SeenObject whole = seen_thing(map, looking, right);
   SeenObject part = whole;
   part.box.x0 += 0.8 * part.box.width();
   EXPECT_EQ(decide({part, whole})[0].kind, Kind::kNew);
-  part.cut[2] = true;
+  whole.cut[2] = true;
   EXPECT_EQ(decide({part, whole})[0].kind, Kind::kUnclear);
 }
 
