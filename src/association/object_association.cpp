@@ -67,10 +67,6 @@ bool centre_agrees(const Candidate& candidate, const SeenObject& seen, double mo
   return (beside || std::abs(off.x()) <= reach) && (above || std::abs(off.y()) <= reach);
 }
 
-bool is_cut(const SeenObject& seen) {
-  return std::any_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
-}
-
 // Of what goes on beyond the border, detectors box a part now and then.
 bool is_inside(const Box2& part, const Box2& whole) {
   const Box2 shared = part.clipped(whole);
@@ -139,13 +135,13 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
       const double overlap = intersection_over_union(c.box, seen[i].box);
       if (overlap >= (kin ? options.min_overlap : kSamePlace) ||
           (kin && points_inside(c, seen[i].box) >= options.th_low) ||
-          (kin && c.born && is_cut(seen[i]) && is_inside(seen[i].box, c.box))) {
+          (kin && c.born && seen[i].is_cut() && is_inside(seen[i].box, c.box))) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }
     for (const SeenObject& other : seen) {
       if (may_be_one_class(seen[i].class_name, other.class_name) &&
-          (is_cut(seen[i]) || is_cut(other)) && is_inside(seen[i].box, other.box)) {
+          (seen[i].is_cut() || other.is_cut()) && is_inside(seen[i].box, other.box)) {
         decisions[i].kind = ObjectDecision::Kind::kUnclear;
       }
     }

@@ -23,6 +23,8 @@ struct SeenObject {
   double score = 1;                      ///< 0 to 1
   std::vector<std::uint32_t> keypoints;  ///< of the keyframe, inside the box
   std::optional<int> thing;              ///< which it is in truth; only a simulator knows
+
+  bool is_cut() const { return cut[0] || cut[1] || cut[2] || cut[3]; }
 };
 
 /// A picture's view of an object, as the factors need it.

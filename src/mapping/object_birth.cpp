@@ -62,8 +62,7 @@ double depth_of(const Map& map, const Keyframe& keyframe, const SeenObject& seen
     if (depths.size() >= kFewPoints) return median(depths);
     const double size = prior_of(seen.class_name, map.units_a_true_metre()).usual;
     const double pixels = std::sqrt(seen.box.width() * seen.box.height()) / 2;
-    const bool whole = std::none_of(seen.cut.begin(), seen.cut.end(), [](bool c) { return c; });
-    if (size > 0 && whole) return size * map.view().pinhole().fx / pixels;
+    if (size > 0 && !seen.is_cut()) return size * map.view().pinhole().fx / pixels;
   }
   depths.clear();
   for (const PointId p : keyframe.points) {

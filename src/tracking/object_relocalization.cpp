@@ -50,9 +50,6 @@ struct NormalEquations {
   double cost = 0;
 };
 
-bool whole(const SeenObject& seen) {
-  return std::none_of(seen.cut.begin(), seen.cut.end(), [](bool cut) { return cut; });
-}
 class ObjectSearch {
  public:
   ObjectSearch(std::span<const SeenObject> seen, std::span<const KnownObject> known,
@@ -112,7 +109,7 @@ class ObjectSearch {
   std::vector<Triple> triples() const {
     std::vector<int> usable;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
-      if (!may_be_[i].empty() && whole(seen_[i])) usable.push_back(static_cast<int>(i));
+      if (!may_be_[i].empty() && !seen_[i].is_cut()) usable.push_back(static_cast<int>(i));
     }
     std::stable_sort(usable.begin(), usable.end(),
                      [&](int a, int b) { return seen_[a].score > seen_[b].score; });
