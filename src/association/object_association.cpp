@@ -67,10 +67,24 @@ bool centre_agrees(const Candidate& candidate, const SeenObject& seen, double mo
   return (beside || std::abs(off.x()) <= reach) && (above || std::abs(off.y()) <= reach);
 }
 
-// Of what goes on beyond the border, detectors box a part now and then.
 bool is_inside(const Box2& part, const Box2& whole) {
   const Box2 shared = part.clipped(whole);
   return shared.valid() && shared.area() >= kInside * part.area() && part.area() < whole.area();
+}
+
+// Of what goes on beyond the border, detectors box a part now and then.
+bool is_part_of(const SeenObject& part, const SeenObject& whole) {
+  return may_be_one_class(part.class_name, whole.class_name) && (part.is_cut() || whole.is_cut()) &&
+         is_inside(part.box, whole.box);
+}
+
+// May a box be of this thing, or of a part of it? Then it begins no other one.
+bool may_show(const SeenObject& seen, const Candidate& candidate,
+              const ObjectAssociationOptions& options) {
+  const double overlap = intersection_over_union(candidate.box, seen.box);
+  if (!may_be_one_class(seen.class_name, candidate.class_name)) return overlap >= kSamePlace;
+  return overlap >= options.min_overlap || points_inside(candidate, seen.box) >= options.th_low ||
+         (candidate.born && seen.is_cut() && is_inside(seen.box, candidate.box));
 }
 
 // Pairs that share what `worth` says (0: not a pair), as many and as much as can be.
@@ -129,22 +143,12 @@ std::vector<ObjectDecision> associate_objects(const Map& map, KeyframeId keyfram
   });
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (decisions[i].kind == ObjectDecision::Kind::kKnown) continue;
-    // Something is there already, or may be.
-    for (const Candidate& c : candidates) {
-      const bool kin = may_be_one_class(seen[i].class_name, c.class_name);
-      const double overlap = intersection_over_union(c.box, seen[i].box);
-      if (overlap >= (kin ? options.min_overlap : kSamePlace) ||
-          (kin && points_inside(c, seen[i].box) >= options.th_low) ||
-          (kin && c.born && seen[i].is_cut() && is_inside(seen[i].box, c.box))) {
-        decisions[i].kind = ObjectDecision::Kind::kUnclear;
-      }
-    }
-    for (const SeenObject& other : seen) {
-      if (may_be_one_class(seen[i].class_name, other.class_name) &&
-          (seen[i].is_cut() || other.is_cut()) && is_inside(seen[i].box, other.box)) {
-        decisions[i].kind = ObjectDecision::Kind::kUnclear;
-      }
-    }
+    const bool unclear =
+        std::any_of(candidates.begin(), candidates.end(),
+                    [&](const Candidate& c) { return may_show(seen[i], c, options); }) ||
+        std::any_of(seen.begin(), seen.end(),
+                    [&](const SeenObject& other) { return is_part_of(seen[i], other); });
+    if (unclear) decisions[i].kind = ObjectDecision::Kind::kUnclear;
   }
   return decisions;
 }

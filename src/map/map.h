@@ -107,8 +107,9 @@ class Map {
   std::optional<Upward> up;
   /// What the calibration got wrong, as far as it was estimated. Nothing until the full adjustment:
   /// tracking and mapping work with the calibration as given.
-  LensCorrection& lens() { return lens_; }
   const LensCorrection& lens() const { return lens_; }
+  /// The boxes of all things move to where an ideal camera has them, if this is the lens.
+  void set_lens(const LensCorrection& lens);
   /// Seconds that the shutter takes from the first row of a picture to the last; 0: so few that it
   /// may as well not roll.
   double readout() const { return readout_; }
@@ -196,9 +197,6 @@ class Map {
   /// `from` becomes part of `into`, whose ellipsoid stays.
   void merge_objects(ObjectId from, ObjectId into);
   void erase_object(ObjectId id);
-  /// Moves the boxes of all things from where the camera had them, if its calibration was right, to
-  /// where an ideal one has them by lens(). Once, when that is known.
-  void unbend_boxes();
   /// In the world as it is now.
   Ellipsoid object_in_world(ObjectId id) const;
   /// The camera of an observation's picture to the world.

@@ -51,15 +51,20 @@ SE3 Map::camera_of(const ObjectObservation& o) const {
 }
 
 // The lens bends little along an edge, and a thing touches an edge near its middle.
-void Map::unbend_boxes() {
+void Map::set_lens(const LensCorrection& lens) {
+  if (lens.values == lens_.values) return;
   const Pinhole& pinhole = view_.pinhole();
+  const auto moved = [&](double x, double y) {
+    return lens.ideal(pinhole, lens_.project(pinhole, pinhole.unproject({x, y})));
+  };
   objects_.for_each([&](ObjectId, ObjectLandmark& landmark) {
     for (ObjectObservation& o : landmark.observations) {
       const double x = o.box.centre().x(), y = o.box.centre().y();
-      o.box = {lens_.ideal(pinhole, {o.box.x0, y}).x(), lens_.ideal(pinhole, {x, o.box.y0}).y(),
-               lens_.ideal(pinhole, {o.box.x1, y}).x(), lens_.ideal(pinhole, {x, o.box.y1}).y()};
+      o.box = {moved(o.box.x0, y).x(), moved(x, o.box.y0).y(), moved(o.box.x1, y).x(),
+               moved(x, o.box.y1).y()};
     }
   });
+  lens_ = lens;
 }
 
 // What the keyframe saw is still true once it is gone: its boxes, and what was relative to it, hang

@@ -1,6 +1,7 @@
 #include "cairn/map/object_landmark.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace cairn {
 
@@ -32,14 +33,16 @@ void ObjectLandmark::take_sightings(const ObjectLandmark& other) {
   for (const auto& [thing, times] : other.things) things[thing] += times;
   last_seen = std::max(last_seen, other.last_seen);
   last_time = std::max(last_time, other.last_time);
-  for (const ObjectObservation& o : other.observations) {
-    const auto same = [&](const ObjectObservation& own) { return own.time == o.time; };
-    if (std::none_of(observations.begin(), observations.end(), same)) {
-      observe(o);
-      ++sightings;
-    }
-  }
-  sightings = std::max(sightings, other.sightings);  // both may have forgotten some
+  std::vector<ObjectObservation> fresh;
+  std::copy_if(other.observations.begin(), other.observations.end(), std::back_inserter(fresh),
+               [&](const ObjectObservation& o) {
+                 return std::none_of(
+                     observations.begin(), observations.end(),
+                     [&](const ObjectObservation& own) { return own.time == o.time; });
+               });
+  for (const ObjectObservation& o : fresh) observe(o);
+  // Both may have forgotten some.
+  sightings = std::max(sightings + std::uint32_t(fresh.size()), other.sightings);
 }
 
 const std::string& ObjectLandmark::class_name() const {

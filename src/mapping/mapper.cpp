@@ -218,10 +218,7 @@ AdjustmentSummary Mapper::finish(const StopAsked& stop, std::span<const Keyframe
   if (options_.refine_lens) {
     const AdjustmentSummary lens = refine_lens(map_, options_.adjustment, stop, &path);
     spdlog::info("lens {}: {}", lens.usable ? "corrected" : "left as calibrated", lens.to_string());
-    if (lens.usable) {
-      summary = lens;
-      map_.unbend_boxes();
-    }
+    if (lens.usable) summary = lens;
   }
   fuse_planes(map_, options_.planes.association);  // what the adjustments have brought together
   settle_planes(map_, options_.planes);

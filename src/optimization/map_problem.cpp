@@ -120,7 +120,7 @@ void MapProblem::keep_unit() {
 }
 
 void MapProblem::write_back() {
-  map_.lens() = lens_;
+  map_.set_lens(lens_);
   if (estimate_readout_) map_.set_readout(std::clamp(readout_, -kLongestReadout, kLongestReadout));
   for (std::size_t i = 0; i < free_count_; ++i) {
     map_.keyframes()[keyframes_[i]].T_wc = SE3Manifold::unpack(&pose_values_[7 * i]);

@@ -87,10 +87,9 @@ TEST_F(MapObjects, StayWhereTheyAreWhenTheirKeyframeGoes) {
 
 TEST_F(MapObjects, HaveTheBoxesThatACameraWithoutTheLensWouldHave) {
   const Pinhole pinhole = map.view().pinhole();
-  map.lens().values = {0.01, -0.05, 0.02, 2, -1};
-  ObjectObservation& o = map.objects()[cup].observations[0];
+  const ObjectObservation& o = map.objects()[cup].observations[0];
   const Box2 seen = o.box;
-  map.unbend_boxes();
+  map.set_lens({{0.01, -0.05, 0.02, 2, -1}});
   const Eigen::Vector2d middle = seen.centre();
   const auto bent = [&](double x, double y) {
     return map.lens().project(pinhole, pinhole.unproject({x, y}));
@@ -98,6 +97,8 @@ TEST_F(MapObjects, HaveTheBoxesThatACameraWithoutTheLensWouldHave) {
   EXPECT_NEAR(bent(o.box.x0, middle.y()).x(), seen.x0, 0.5);
   EXPECT_NEAR(bent(middle.x(), o.box.y1).y(), seen.y1, 0.5);
   EXPECT_GT((o.box.edges() - seen.edges()).norm(), 2);
+  map.set_lens({});
+  EXPECT_LT((o.box.edges() - seen.edges()).norm(), 0.1) << "the lens is as calibrated again";
 }
 
 TEST_F(MapObjects, TakeOverTheBoxesOfWhatTheyAreFusedWith) {

@@ -67,7 +67,7 @@ TEST(Sighting, TheLensIsTakenForWhatTheMapFoundItToBe) {
     return place(map, sightings, 2, along(0.5), Vector6d::Zero()).value();
   };
   const double right = distance(place_now(), along(0.5));
-  map.lens().values[0] = 0.05;  // the focal length would be so much longer
+  map.set_lens({{0.05}});  // the focal length would be so much longer
   EXPECT_GT(distance(place_now(), along(0.5)), 0.02 + right);
 }
 
