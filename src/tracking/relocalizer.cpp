@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "cairn/geometry/resection.h"
 #include "cairn/tracking/object_relocalization.h"
@@ -126,11 +127,12 @@ class Attempt {
     return std::max(1.0, static_cast<double>(count));
   }
 
-  // Of the points that the candidate's pose should show, those that it does show.
+  // Of the points that the candidate's pose should show, those that it shows as corners: what they
+  // missed has been looked for in keyframes, but not in the lost frame.
   double usual_share() const {
-    const auto none =
-        std::count(map_->reference_points.begin(), map_->reference_points.end(), kNoPoint);
-    const auto seen = static_cast<double>(map_->reference_points.size() - none);
+    const auto corners = std::span(map_->reference_points).first(map_->reference_frame->corners());
+    const auto none = std::count(corners.begin(), corners.end(), kNoPoint);
+    const auto seen = static_cast<double>(corners.size()) - static_cast<double>(none);
     return std::max(1.0, seen) / count_visible(map_->pose_of(map_->reference).value());
   }
 
