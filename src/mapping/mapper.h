@@ -27,7 +27,7 @@ struct MappingOptions {
   double min_parallax_deg = 1.0;  ///< between the rays of a new point
   double match_ratio = 0.8;       ///< of a new point: nearest to second nearest descriptor
   int max_local_points = 4000;    ///< points in a published view
-  double redundancy = 0.9;        ///< share of its points seen elsewhere that makes a keyframe go
+  double redundancy = 0.95;       ///< share of its points seen elsewhere that makes a keyframe go
   bool refine_lens = true;        ///< corrects at last what the calibration clearly got wrong
   double readout = 0;             ///< of the shutter, seconds; where it is estimated, a first guess
   AdjustmentOptions adjustment;
