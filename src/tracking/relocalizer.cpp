@@ -131,9 +131,10 @@ class Attempt {
   // missed has been looked for in keyframes, but not in the lost frame.
   double usual_share() const {
     const auto corners = std::span(map_->reference_points).first(map_->reference_frame->corners());
-    const auto none = std::count(corners.begin(), corners.end(), kNoPoint);
-    const auto seen = static_cast<double>(corners.size()) - static_cast<double>(none);
-    return std::max(1.0, seen) / count_visible(map_->pose_of(map_->reference).value());
+    const auto seen = std::count_if(corners.begin(), corners.end(),
+                                    [](std::uint32_t point) { return point != kNoPoint; });
+    return std::max(1.0, static_cast<double>(seen)) /
+           count_visible(map_->pose_of(map_->reference).value());
   }
 
   void gather() {
