@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "cairn/geometry/median.h"
 
@@ -248,8 +249,9 @@ double Map::depth_quantile(KeyframeId id, double rank) const {
 }
 
 int Map::tracked_points(KeyframeId id) const {
-  const std::vector<PointId>& points = keyframes_[id].points;
-  return int(std::count_if(points.begin(), points.end(), [](PointId p) { return p.valid(); }));
+  const Keyframe& keyframe = keyframes_[id];
+  const auto corners = std::span(keyframe.points).first(keyframe.frame->corners());
+  return int(std::count_if(corners.begin(), corners.end(), [](PointId p) { return p.valid(); }));
 }
 
 }  // namespace cairn

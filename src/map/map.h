@@ -210,7 +210,8 @@ class Map {
       std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// Quantile (0.5: median) of the depths of the points that a keyframe sees; 0 where it sees none.
   double depth_quantile(KeyframeId id, double rank) const;
-  /// How many points a keyframe sees.
+  /// How many points a keyframe's corners see: as many as a frame there can find. What corners
+  /// missed is looked for in keyframes only.
   int tracked_points(KeyframeId id) const;
   /// Depths at the keypoints of a keyframe; where no point is, that of most.
   std::vector<double> depths(KeyframeId id) const;

@@ -43,7 +43,7 @@ struct MapView {
   KeyframeId reference;  ///< the keyframe it was made around
   std::shared_ptr<const Frame> reference_frame;
   std::vector<std::uint32_t> reference_points;    ///< a keypoint: index into points, or kNone
-  int reference_tracked = 0;                      ///< points of the reference, assumed ones, too
+  int reference_tracked = 0;                      ///< points that its corners see
   double median_depth = 0;                        ///< of the points that the reference sees
   std::uint32_t newest = 0;                       ///< sequence number of the newest keyframe
   std::size_t map_keyframes = 0, map_points = 0;  ///< of the whole map

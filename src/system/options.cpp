@@ -32,8 +32,6 @@ OptionTable::OptionTable(Options& o) {
   add("tracking.min_prediction_inliers", o.tracking.min_prediction_inliers, "points", {4, 1000}, "of the last frame that must agree with the predicted motion");
   add("tracking.align", o.tracking.align, "move keypoints to where the picture looks as their points did; else they stay where corners were found");
   add("tracking.search_radius", o.tracking.search_radius, "pixels", {2, 200}, "around the place that the motion predicts");
-  add("tracking.keyframe_ratio", o.tracking.keyframe_ratio, "", {0.1, 1}, "a new keyframe once fewer of the last one's points are seen");
-  add("tracking.max_keyframe_gap", o.tracking.max_keyframe_gap, "seconds", {0.05, 60}, "longest time without a keyframe");
   add("mapping.readout", o.mapping.readout, "seconds", {-0.1, 0.1}, "that the shutter takes from the first row of a picture to the last");
   add("mapping.estimate_readout", o.mapping.adjustment.estimate_readout, "find out how the shutter rolls; else mapping.readout holds");
   add("tracking.relocalize_by_objects", o.tracking.relocalize_by_objects, "find a lost camera by three or more objects of the map where points do not");

@@ -272,7 +272,6 @@ void Slam::Implementation::hand_over_keyframe() {
   const TrackedFrame& t = tracker.last();
   KeyframeCandidate candidate{t.frame, t.reference, t.T_rc, t.points, t.aligned};
   candidate.picture = picture_to_align();
-  tracker.keyframe_made();
   mapping->insert(std::move(candidate), std::move(sighting));
   sighting = {};
   frames_since_keyframe = 0;

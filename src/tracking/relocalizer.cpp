@@ -127,13 +127,9 @@ class Attempt {
     return std::max(1.0, static_cast<double>(count));
   }
 
-  // Of the points that the candidate's pose should show, those that it shows as corners: what they
-  // missed has been looked for in keyframes, but not in the lost frame.
+  // Of the points that the candidate's pose should show, those that it shows.
   double usual_share() const {
-    const auto corners = std::span(map_->reference_points).first(map_->reference_frame->corners());
-    const auto seen = std::count_if(corners.begin(), corners.end(),
-                                    [](std::uint32_t point) { return point != kNoPoint; });
-    return std::max(1.0, static_cast<double>(seen)) /
+    return std::max(1, map_->reference_tracked) /
            count_visible(map_->pose_of(map_->reference).value());
   }
 

@@ -20,7 +20,9 @@ constexpr double kTurnAcceleration = 30;  // radians a second squared
 constexpr double kLeastStep = 1e-3;       // seconds between frames
 constexpr double kLeastDepth = 1e-3;      // of a scene
 constexpr double kFrontalCosine = 0.998;
-constexpr int kMostWaiting = 3;  // keyframes
+constexpr int kMostWaiting = 3;        // keyframes
+constexpr int kFewestOfKeyframe = 15;  // points
+constexpr double kWeakShare = 0.4;     // of the points of the reference
 // A camera that has moved less than this from its reference keyframe sees nothing new.
 constexpr double kStillShare = 0.001;  // of the scene's median depth
 constexpr double kStillRadians = 0.001;
@@ -47,10 +49,7 @@ void Tracker::start_from(std::shared_ptr<const Frame> frame, const SE3& T_wc,
     last_points_.push_back(id.valid() ? view->index_of(id) : kNoPoint);
   has_velocity_ = false;
   frames_since_start_ = 0;
-  keyframe_made();
 }
-
-void Tracker::keyframe_made() { last_keyframe_time_ = last_.frame->timestamp; }
 
 // A new view: the last frame moves with its reference keyframe, its points get new indices.
 void Tracker::adopt_view(const std::shared_ptr<const MapView>& view) {
@@ -331,16 +330,12 @@ int Tracker::adjust(const Frame& frame, SE3& T_wc, bool unroll) {
 bool Tracker::wants_keyframe(int before_it) const {
   const bool moved = last_.T_rc.translation().norm() > kStillShare * map_->median_depth ||
                      Eigen::AngleAxisd(last_.T_rc.rotation()).angle() > kStillRadians;
-  const bool long_ago = last_.frame->timestamp - last_keyframe_time_ >= options_.max_keyframe_gap;
-  const bool weak = last_.inliers < options_.keyframe_ratio * map_->reference_tracked;
-  // What is left over could become points of the map.
-  const bool starving = sees_planes() && 2 * last_.inliers < int(last_.frame->size());
-  const bool very_weak = last_.inliers < 0.4 * map_->reference_tracked;
-  if (last_.inliers < 15 && !sees_planes()) return false;
-  // A mapper that is behind would only fall farther behind: its newest map shows an ever older
-  // place, where ever less is found, and each frame would be worth a keyframe.
-  return (before_it == 0 && moved && (weak || long_ago || starving)) ||
-         (before_it < kMostWaiting && very_weak);
+  const bool weak = last_.inliers < kWeakShare * map_->reference_tracked;
+  if (last_.inliers < kFewestOfKeyframe && !sees_planes()) return false;
+  // Each picture from elsewhere says something: the mapper takes as many as it has time for, and
+  // lets those go that others make redundant. One that is behind would only fall farther behind:
+  // its newest map shows an ever older place, where ever less is found.
+  return (before_it == 0 && moved) || (before_it < kMostWaiting && weak);
 }
 
 }  // namespace cairn

@@ -21,8 +21,6 @@ struct TrackingOptions {
   bool align = true;              ///< keypoints to where the picture looks as their points did
   double search_radius = 15;      ///< pixels around the prediction of the motion model
   int max_local_points = 4000;    ///< points of the map that a frame is compared with
-  double keyframe_ratio = 0.9;    ///< a new keyframe when fewer of the reference's points are seen
-  double max_keyframe_gap = 1.0;  ///< seconds without a keyframe
   int few_points = 60;            ///< with fewer inliers planes help to hold the camera
   int min_supported_inliers = 6;  ///< points that must agree with a pose that planes hold
   bool relocalize_by_objects = true;  ///< where points do not find a lost camera
@@ -63,8 +61,6 @@ class Tracker {
 
   /// Is the frame that was tracked last worth a keyframe, that `before_it` others go before?
   bool wants_keyframe(int before_it) const;
-  /// The last frame has become a keyframe.
-  void keyframe_made();
 
   const TrackedFrame& last() const { return last_; }
 
@@ -97,7 +93,6 @@ class Tracker {
   bool has_velocity_ = false;
   int frames_since_start_ = 0;
   std::optional<PoseSupport> support_;  // of the present frame: planes where it needs some
-  double last_keyframe_time_ = 0;
 
   // Reused between frames.
   std::vector<std::uint32_t> current_points_;

@@ -212,6 +212,18 @@ TEST(Map, DepthQuantilesAreThoseOfThePointsSeen) {
   EXPECT_EQ(map.tracked_points(a), 5);
 }
 
+// A frame has corners only: it cannot find more of a keyframe's points than these.
+TEST(Map, TracksThePointsThatCornersSeeAndNotWhatTheyMissed) {
+  Map map(testing::point_view());
+  const auto frame = plain_frame(5);
+  frame->added = 2;
+  const KeyframeId id = map.add_keyframe(frame, SE3());
+  for (const std::uint32_t i : {0U, 1U, 3U, 4U}) {
+    map.add_observation(map.add_point({0, 0, 4}), id, i);
+  }
+  EXPECT_EQ(map.tracked_points(id), 2);
+}
+
 TEST(Map, RemembersItsFirstAndItsNewestKeyframe) {
   Map map(testing::point_view());
   EXPECT_FALSE(map.first().valid());
